@@ -1,0 +1,97 @@
+"""What the artist works on: a layer, one of its keyframes, nodes or a mark on it. Not undoable."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, Signal
+
+from app.document.session import Session
+from core.model import Document, Keyframe, Layer
+
+
+class Selection(QObject):
+    """The current layer, keyframe, nodes and mark; always valid for the session's document."""
+
+    changed = Signal()
+
+    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self._layer_id: int | None = None
+        self._key = 0
+        self._nodes: frozenset[tuple[int, int]] = frozenset()
+        self._mark: int | None = None
+        session.changed.connect(self._keep_valid)
+        session.replaced.connect(self._start_over)
+        self._keep_valid(session.document)
+
+    @property
+    def layer(self) -> Layer | None:
+        """The current layer; None only in an empty document."""
+        return None if self._layer_id is None else self._session.document.layer(self._layer_id)
+
+    @property
+    def key(self) -> int:
+        """Index of the current keyframe in the layer."""
+        return self._key
+
+    @property
+    def keyframe(self) -> Keyframe | None:
+        """The current keyframe."""
+        return self.layer.keyframes[self._key] if self.layer else None
+
+    @property
+    def nodes(self) -> frozenset[tuple[int, int]]:
+        """Selected (ring, node) pairs on the current keyframe."""
+        return self._nodes
+
+    @property
+    def mark(self) -> int | None:
+        """Index of the selected mark."""
+        return self._mark
+
+    def select_layer(self, layer_id: int) -> None:
+        """Make a layer current."""
+        if layer_id != self._layer_id:
+            self._set(layer_id, 0)
+
+    def select_key(self, layer_id: int, key: int) -> None:
+        """Make a keyframe current."""
+        if (layer_id, key) != (self._layer_id, self._key):
+            self._set(layer_id, key)
+
+    def select_nodes(self, nodes: frozenset[tuple[int, int]]) -> None:
+        """Select nodes on the current keyframe."""
+        if nodes != self._nodes or self._mark is not None:
+            self._nodes, self._mark = nodes, None
+            self.changed.emit()
+
+    def select_mark(self, mark: int | None) -> None:
+        """Select a mark of the current layer."""
+        if mark != self._mark or self._nodes:
+            self._nodes, self._mark = frozenset(), mark
+            self.changed.emit()
+
+    def _set(self, layer_id: int | None, key: int) -> None:
+        self._layer_id, self._key = layer_id, key
+        self._nodes, self._mark = frozenset(), None
+        self.changed.emit()
+
+    def _start_over(self) -> None:
+        layers = self._session.document.layers
+        self._set(layers[-1].id if layers else None, 0)
+
+    def _keep_valid(self, document: Document) -> None:
+        ids = [layer.id for layer in document.layers]
+        if self._layer_id not in ids:
+            self._set(ids[-1] if ids else None, 0)
+            return
+        layer = document.layer(self._layer_id)
+        if self._key >= len(layer.keyframes):
+            self._set(self._layer_id, len(layer.keyframes) - 1)
+            return
+        rings = layer.keyframes[self._key].outline.rings
+        nodes = frozenset((r, n) for r, n in self._nodes if r < len(rings) and n < len(rings[r]))
+        mark = None if self._mark is None or self._mark >= len(layer.labels) else self._mark
+        if (nodes, mark) != (self._nodes, self._mark):
+            self._nodes, self._mark = nodes, mark
+            self.changed.emit()

@@ -1,0 +1,147 @@
+"""The one writer: the current document, its history, and the file it lives in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QUndoCommand, QUndoStack
+
+from core.errors import MorphError
+from core.model import Document
+
+
+class Session(QObject):
+    """Holds the document. Everything else reads it here and changes it through here.
+
+    An edit is ``session.apply(text, edit, *args)`` with a pure function of ``core.model.edits``.
+    A drag is ``begin(text)``, any number of ``apply`` calls, then ``commit()`` or ``abandon()``:
+    every ``apply`` in between starts from the document at ``begin``; the whole is one undo step.
+    """
+
+    changed = Signal(object)
+    """The new Document: after every edit, undo, redo, and while dragging."""
+    replaced = Signal()
+    """Another document was opened; emitted after ``changed``."""
+    failed = Signal(object)
+    """A MorphError: an edit was refused and nothing changed."""
+    file_changed = Signal()
+    """The path or the unsaved state changed."""
+
+    def __init__(self, document: Document | None = None, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._document = document or Document()
+        self._drag: tuple[str, Document] | None = None
+        self.path: Path | None = None
+        self.undo_stack = QUndoStack(self)
+        self.undo_stack.cleanChanged.connect(self._on_clean_changed)
+
+    @property
+    def document(self) -> Document:
+        """The document as it is now, an unfinished drag included."""
+        return self._document
+
+    @property
+    def dragging(self) -> bool:
+        """Whether a drag is under way."""
+        return self._drag is not None
+
+    @property
+    def dirty(self) -> bool:
+        """Whether there is unsaved work."""
+        return not self.undo_stack.isClean()
+
+    def apply(self, text: str, edit: Callable[..., Document], *args: Any, **kwargs: Any) -> bool:
+        """Replace the document by ``edit(document, *args, **kwargs)``; return whether it changed.
+
+        ``text`` names the step in the Edit menu. A refused edit emits ``failed``.
+        """
+        base = self._drag[1] if self._drag else self._document
+        try:
+            after = edit(base, *args, **kwargs)
+        except MorphError as error:
+            self.failed.emit(error)
+            return False
+        if after is self._document:
+            return False
+        if self._drag:
+            self._show(after)
+        elif after is not base:
+            self.undo_stack.push(_Swap(self, text, base, after))
+        return True
+
+    def begin(self, text: str) -> None:
+        """Start a drag, named for the Edit menu."""
+        self.commit()
+        self._drag = (text, self._document)
+
+    def commit(self) -> None:
+        """End the drag; it becomes one undo step, or none if nothing changed."""
+        if self._drag is None:
+            return
+        (text, before), self._drag = self._drag, None
+        if self._document is not before:
+            self.undo_stack.push(_Swap(self, text, before, self._document))
+
+    def abandon(self) -> None:
+        """End the drag and go back to the document before it."""
+        if self._drag is None:
+            return
+        (_, before), self._drag = self._drag, None
+        self._show(before)
+
+    def undo(self) -> None:
+        """Take back the last step; an unfinished drag counts as one."""
+        self.commit()
+        self.undo_stack.undo()
+
+    def redo(self) -> None:
+        """Do the step again that was taken back last."""
+        self.commit()
+        self.undo_stack.redo()
+
+    def replace(self, document: Document, path: Path | None = None, *, saved: bool = True) -> None:
+        """Open another document, with an empty history; ``saved=False`` for a recovered one."""
+        self._drag = None
+        self.path = path
+        self.undo_stack.clear()
+        if not saved:
+            self.undo_stack.resetClean()
+        self._document = document
+        self.changed.emit(document)
+        self.replaced.emit()
+        self.file_changed.emit()
+
+    def mark_saved(self, path: Path) -> None:
+        """Note that the document as it is now is in this file."""
+        self.path = path
+        self.undo_stack.setClean()
+        self.file_changed.emit()
+
+    def close(self) -> None:
+        """Cut the signals before Qt takes the objects apart."""
+        self.undo_stack.cleanChanged.disconnect(self._on_clean_changed)
+
+    def _on_clean_changed(self, _clean: bool) -> None:
+        self.file_changed.emit()
+
+    def _show(self, document: Document) -> None:
+        if document is not self._document:
+            self._document = document
+            self.changed.emit(document)
+
+
+class _Swap(QUndoCommand):
+    """One step: the documents before and after it, so that no inverse can be wrong."""
+
+    def __init__(self, session: Session, text: str, before: Document, after: Document) -> None:
+        super().__init__(text)
+        self._session, self._before, self._after = session, before, after
+
+    def undo(self) -> None:
+        self._session._show(self._before)
+
+    def redo(self) -> None:
+        self._session._show(self._after)

@@ -1,0 +1,56 @@
+"""Bézier rings to polylines, keeping track of where on the ring each vertex lies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.model.outline import Array, Outline, Ring
+
+TOLERANCE = 1e-4
+"""Largest distance from curve to polyline, as a fraction of the outline's diagonal."""
+MAX_PIECES = 256
+"""Pieces that one segment is cut into at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Polyline:
+    """A closed polyline and the place (``Ring``) of each of its vertices."""
+
+    points: Array
+    """(n, 2)"""
+    at: Array
+    """(n,) increasing places on the ring it came from."""
+
+
+def flatten(outline: Outline, tolerance: float = TOLERANCE) -> tuple[Polyline, ...]:
+    """Flatten every ring to within ``tolerance`` × the diagonal of the outline's bounds."""
+    left, top, right, bottom = outline.bounds()
+    distance = tolerance * float(np.hypot(right - left, bottom - top))
+    return tuple(flatten_ring(ring, distance) for ring in outline.rings)
+
+
+def flatten_ring(ring: Ring, distance: float) -> Polyline:
+    """Flatten a ring to within ``distance``; straight segments keep just their nodes."""
+    if not ring.curved.any() or not distance > 0:
+        return Polyline(ring.points, np.arange(len(ring), dtype=float))
+    points, at = [], []
+    for i, curved in enumerate(ring.curved):
+        u = np.arange(_pieces(ring.controls(i), distance) if curved else 1, dtype=float)
+        u /= len(u)
+        at.append(i + u)
+        points.append(_cubic(ring.controls(i), u) if curved else ring.points[i : i + 1])
+    return Polyline(np.concatenate(points), np.concatenate(at))
+
+
+def _pieces(controls: Array, distance: float) -> int:
+    """Pieces of a cubic, by the bound of its second derivative (Wang's formula)."""
+    bend = np.abs(np.diff(controls, n=2, axis=0)).max(axis=0)
+    pieces = np.ceil(np.sqrt(0.75 * np.hypot(*bend) / distance))
+    return int(np.clip(pieces, 2, MAX_PIECES)) if np.isfinite(pieces) else 2
+
+
+def _cubic(b: Array, u: Array) -> Array:
+    u, v = u[:, None], 1 - u[:, None]
+    return v**3 * b[0] + 3 * v * v * u * b[1] + 3 * v * u * u * b[2] + u**3 * b[3]

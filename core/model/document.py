@@ -1,0 +1,36 @@
+"""The document: everything the artist made, and nothing that can be computed from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.model.layer import Layer
+
+
+@dataclass(frozen=True)
+class Document:
+    """Immutable; edits (``core.model.edits``) return a new one that shares what did not change.
+
+    y points down, units are pixels at 100 %.
+    """
+
+    layers: tuple[Layer, ...] = ()
+    """Bottom first."""
+    fps: float = 24.0
+    size: tuple[float, float] = (960.0, 540.0)
+    """Width and height of the artboard."""
+    background: str = "#ffffff"
+    """"#rrggbb", "#rrggbbaa", or an empty string for none."""
+
+    def layer(self, layer_id: int) -> Layer:
+        """Return a layer by its id; KeyError when there is none."""
+        for layer in self.layers:
+            if layer.id == layer_id:
+                return layer
+        raise KeyError(layer_id)
+
+    @property
+    def frames(self) -> tuple[int, int]:
+        """First and last frame that has a key; (1, 1) for an empty document."""
+        frames = [key.frame for layer in self.layers for key in layer.keyframes]
+        return (min(frames), max(frames)) if frames else (1, 1)

@@ -1,0 +1,293 @@
+"""Every change an artist can make, each as one pure function Document → Document.
+
+A function returns the very same document when nothing changes, and raises ``EditError`` when the
+edit is impossible. Parts that did not change are shared, so results computed for them stay valid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core.errors import EditError, Where
+from core.model.document import Document
+from core.model.easing import Easing
+from core.model.layer import Keyframe, Layer, mark_labels
+from core.model.outline import Outline, Ring, RingPoint
+
+MIN_NODES = 3
+
+# -- document and layers -----------------------------------------------------------------------
+
+
+def update_document(document: Document, **changes: Any) -> Document:
+    """Change fps, size or background."""
+    return _changed(document, **changes)
+
+
+def add_layer(document: Document, name: str, frame: int, outline: Outline) -> Document:
+    """Add a layer on top, with one keyframe."""
+    new_id = max((layer.id for layer in document.layers), default=0) + 1
+    layer = Layer(new_id, name, (Keyframe(frame, outline),))
+    return replace(document, layers=(*document.layers, layer))
+
+
+def remove_layer(document: Document, layer_id: int) -> Document:
+    """Remove a layer."""
+    kept = tuple(layer for layer in document.layers if layer.id != layer_id)
+    return _changed(document, layers=kept)
+
+
+def reorder_layer(document: Document, layer_id: int, index: int) -> Document:
+    """Move a layer to a position in the stack, bottom = 0."""
+    layer = document.layer(layer_id)
+    layers = [other for other in document.layers if other.id != layer_id]
+    layers.insert(index, layer)
+    return _changed(document, layers=tuple(layers))
+
+
+def update_layer(document: Document, layer_id: int, **changes: Any) -> Document:
+    """Change a layer's name, style, recipe, visible or locked."""
+    return _on_layer(document, layer_id, lambda layer: _changed(layer, **changes))
+
+
+# -- keyframes ---------------------------------------------------------------------------------
+
+
+def insert_keyframe(document: Document, layer_id: int, keyframe: Keyframe) -> Document:
+    """Add a keyframe; it must place every mark of the layer. Its frame must be free."""
+
+    def edit(layer: Layer) -> Layer:
+        if layer.key_at(keyframe.frame) is not None:
+            raise EditError(
+                f"Frame {keyframe.frame} already has a keyframe.",
+                hint="Move the playhead to a free frame, or delete that keyframe first.",
+            )
+        if len(keyframe.marks) != len(layer.labels):
+            raise EditError("A keyframe must place every mark of its layer.")
+        return replace(layer, keyframes=_by_frame((*layer.keyframes, keyframe)))
+
+    return _on_layer(document, layer_id, edit)
+
+
+def remove_keyframe(document: Document, layer_id: int, key: int) -> Document:
+    """Remove a keyframe; a layer keeps at least one."""
+
+    def edit(layer: Layer) -> Layer:
+        if len(layer.keyframes) == 1:
+            raise EditError(
+                "A layer needs at least one keyframe.", hint="Delete the layer instead."
+            )
+        return replace(layer, keyframes=layer.keyframes[:key] + layer.keyframes[key + 1 :])
+
+    return _on_layer(document, layer_id, edit)
+
+
+def move_keyframe(document: Document, layer_id: int, key: int, frame: int) -> Document:
+    """Move a keyframe in time, without passing or covering a neighbour."""
+
+    def edit(layer: Layer) -> Layer:
+        before = layer.keyframes[key - 1].frame if key > 0 else -np.inf
+        after = layer.keyframes[key + 1].frame if key + 1 < len(layer.keyframes) else np.inf
+        if not before < frame < after:
+            raise EditError(f"Frame {frame} is not between the neighbouring keyframes.")
+        return _with_key(layer, key, frame=frame)
+
+    return _on_layer(document, layer_id, edit)
+
+
+def replace_outline(
+    document: Document, layer_id: int, key: int, outline: Outline, marks: Sequence[RingPoint]
+) -> Document:
+    """Give a keyframe another outline, with a place on it for every mark."""
+    if len(marks) != len(document.layer(layer_id).labels):
+        raise EditError("A keyframe must place every mark of its layer.")
+    return _on_key(document, layer_id, key, outline=outline, marks=tuple(marks))
+
+
+def set_easing(document: Document, layer_id: int, key: int, easing: Easing) -> Document:
+    """Set the timing of the span that begins at a keyframe."""
+    return _on_key(document, layer_id, key, easing=easing)
+
+
+# -- nodes -------------------------------------------------------------------------------------
+
+
+def move_nodes(
+    document: Document, layer_id: int, key: int, ring: int, nodes: Sequence[int], by: ArrayLike
+) -> Document:
+    """Move nodes, with their handles, by an offset (2,)."""
+
+    def edit(old: Ring) -> Ring:
+        points = np.array(old.points)
+        points[list(nodes)] += np.asarray(by, dtype=float)
+        return replace(old, points=points)
+
+    return _on_ring(document, layer_id, key, ring, edit)
+
+
+def set_handles(
+    document: Document,
+    layer_id: int,
+    key: int,
+    place: tuple[int, int],
+    handle_in: ArrayLike,
+    handle_out: ArrayLike,
+) -> Document:
+    """Set both handles of node ``place = (ring, node)``, as offsets (2,) from it; zero: none."""
+    ring, node = place
+
+    def edit(old: Ring) -> Ring:
+        before, after = np.array(old.handles_in), np.array(old.handles_out)
+        before[node], after[node] = handle_in, handle_out
+        return replace(old, handles_in=before, handles_out=after)
+
+    return _on_ring(document, layer_id, key, ring, edit)
+
+
+def insert_node(document: Document, layer_id: int, key: int, place: RingPoint) -> Document:
+    """Insert a node on the curve, without changing its shape; marks stay where they are."""
+    keyframe = document.layer(layer_id).keyframes[key]
+    segment, u = int(place.at), place.at - int(place.at)
+    if u == 0:
+        return document
+
+    def shifted(mark: RingPoint) -> RingPoint:
+        if mark.ring != place.ring or mark.at < segment:
+            return mark
+        if mark.at >= segment + 1:
+            return replace(mark, at=mark.at + 1)
+        v = mark.at - segment
+        at = segment + v / u if v < u else segment + 1 + (v - u) / (1 - u)
+        return replace(mark, at=at)
+
+    ring = keyframe.outline.rings[place.ring].with_node(place.at)
+    return _on_key(
+        document,
+        layer_id,
+        key,
+        outline=keyframe.outline.with_ring(place.ring, ring),
+        marks=tuple(map(shifted, keyframe.marks)),
+    )
+
+
+def delete_nodes(
+    document: Document, layer_id: int, key: int, ring: int, nodes: Sequence[int]
+) -> Document:
+    """Delete nodes; a ring keeps at least three. Marks move to the nearest place that is left."""
+    keyframe = document.layer(layer_id).keyframes[key]
+    old = keyframe.outline.rings[ring]
+    gone = np.unique(np.asarray(nodes, dtype=int))
+    if len(old) - len(gone) < MIN_NODES:
+        raise EditError(
+            f"A ring needs at least {MIN_NODES} nodes.",
+            where=Where(ring=ring),
+            hint="Add nodes elsewhere first, or draw the outline anew.",
+        )
+    kept = np.setdiff1d(np.arange(len(old)), gone)
+
+    def shifted(mark: RingPoint) -> RingPoint:
+        if mark.ring != ring:
+            return mark
+        before = int(np.searchsorted(kept, mark.at, side="right")) - 1
+        start = kept[before] - (len(old) if before < 0 else 0)
+        end = kept[before + 1] if before + 1 < len(kept) else kept[0] + len(old)
+        u = (mark.at - start) / (end - start)
+        return replace(mark, at=float((before + u) % len(kept)))
+
+    return _on_key(
+        document,
+        layer_id,
+        key,
+        outline=keyframe.outline.with_ring(ring, old.without_nodes(gone.tolist())),
+        marks=tuple(map(shifted, keyframe.marks)),
+    )
+
+
+def transform_outline(
+    document: Document, layer_id: int, key: int, matrix: ArrayLike, offset: ArrayLike
+) -> Document:
+    """Apply x → M x + offset to a whole keyframe."""
+    keyframe = document.layer(layer_id).keyframes[key]
+    return _on_key(document, layer_id, key, outline=keyframe.outline.transformed(matrix, offset))
+
+
+# -- marks -------------------------------------------------------------------------------------
+
+
+def add_mark(document: Document, layer_id: int, places: Sequence[RingPoint]) -> Document:
+    """Add a mark, with its place on every keyframe of the layer; it takes the next free letter."""
+
+    def edit(layer: Layer) -> Layer:
+        if len(places) != len(layer.keyframes):
+            raise EditError("A mark needs a place on every keyframe.")
+        label = next(label for label in mark_labels() if label not in layer.labels)
+        keys = tuple(
+            replace(key, marks=(*key.marks, place))
+            for key, place in zip(layer.keyframes, places, strict=True)
+        )
+        return replace(layer, labels=(*layer.labels, label), keyframes=keys)
+
+    return _on_layer(document, layer_id, edit)
+
+
+def move_mark(document: Document, layer_id: int, key: int, mark: int, place: RingPoint) -> Document:
+    """Move a mark on one keyframe."""
+    marks = list(document.layer(layer_id).keyframes[key].marks)
+    marks[mark] = place
+    return _on_key(document, layer_id, key, marks=tuple(marks))
+
+
+def remove_marks(document: Document, layer_id: int, marks: Sequence[int]) -> Document:
+    """Remove marks by index, from every keyframe; the others keep their letters."""
+    gone = set(marks)
+
+    def kept(items: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(item for i, item in enumerate(items) if i not in gone)
+
+    def edit(layer: Layer) -> Layer:
+        keys = tuple(replace(key, marks=kept(key.marks)) for key in layer.keyframes)
+        return _changed(layer, labels=kept(layer.labels), keyframes=keys)
+
+    return _on_layer(document, layer_id, edit)
+
+
+# -- helpers -----------------------------------------------------------------------------------
+
+
+def _changed(item: Any, **changes: Any) -> Any:
+    """Return the item itself when the changes change nothing."""
+    return (
+        item if all(getattr(item, k) == v for k, v in changes.items()) else replace(item, **changes)
+    )
+
+
+def _on_layer(document: Document, layer_id: int, edit: Callable[[Layer], Layer]) -> Document:
+    layers = tuple(edit(layer) if layer.id == layer_id else layer for layer in document.layers)
+    return _changed(document, layers=layers)
+
+
+def _with_key(layer: Layer, key: int, **changes: Any) -> Layer:
+    changed = _changed(layer.keyframes[key], **changes)
+    return _changed(layer, keyframes=(*layer.keyframes[:key], changed, *layer.keyframes[key + 1 :]))
+
+
+def _on_key(document: Document, layer_id: int, key: int, **changes: Any) -> Document:
+    return _on_layer(document, layer_id, lambda layer: _with_key(layer, key, **changes))
+
+
+def _on_ring(
+    document: Document, layer_id: int, key: int, ring: int, edit: Callable[[Ring], Ring]
+) -> Document:
+    outline = document.layer(layer_id).keyframes[key].outline
+    return _on_key(
+        document, layer_id, key, outline=outline.with_ring(ring, edit(outline.rings[ring]))
+    )
+
+
+def _by_frame(keyframes: Sequence[Keyframe]) -> tuple[Keyframe, ...]:
+    return tuple(sorted(keyframes, key=lambda key: key.frame))

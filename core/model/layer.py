@@ -1,0 +1,69 @@
+"""A layer: one shape through time, its keyframes in order, and the marks that they share."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import count, product
+from string import ascii_lowercase
+
+from core.model.easing import LINEAR, Easing
+from core.model.outline import Outline, RingPoint
+from core.model.recipe import Recipe
+from core.model.style import Style
+
+
+@dataclass(frozen=True)
+class Keyframe:
+    """An outline at a frame, with the layer's marks on it and the easing of the span after it."""
+
+    frame: int
+    outline: Outline
+    marks: tuple[RingPoint, ...] = ()
+    """One place for each of the layer's marks, in their order."""
+    easing: Easing = LINEAR
+
+
+@dataclass(frozen=True)
+class Layer:
+    """Keyframes are ordered by frame, one a frame; a span lies between each two neighbours."""
+
+    id: int
+    name: str
+    keyframes: tuple[Keyframe, ...]
+    labels: tuple[str, ...] = ()
+    """The letters of the marks; every keyframe has a place for each."""
+    style: Style = field(default_factory=Style)
+    recipe: Recipe = field(default_factory=Recipe)
+    visible: bool = True
+    locked: bool = False
+
+    @property
+    def spans(self) -> int:
+        """How many spans there are."""
+        return max(len(self.keyframes) - 1, 0)
+
+    def span_at(self, frame: float) -> tuple[int, float]:
+        """Return the span that covers a frame and t in it, both clamped to the layer's keys.
+
+        A key belongs to the span that it begins; the last key ends the last span at t = 1. A layer
+        with one key answers (0, 0.0).
+        """
+        frames = [key.frame for key in self.keyframes]
+        if frame >= frames[-1]:
+            return max(self.spans - 1, 0), float(self.spans > 0)
+        index = max(bisect_right(frames, frame) - 1, 0)
+        t = (frame - frames[index]) / (frames[index + 1] - frames[index])
+        return index, max(t, 0.0)
+
+    def key_at(self, frame: float) -> int | None:
+        """Return the index of the keyframe at exactly this frame, if there is one."""
+        return next((i for i, key in enumerate(self.keyframes) if key.frame == frame), None)
+
+
+def mark_labels() -> Iterator[str]:
+    """Yield a, b, … z, aa, ab, … without end."""
+    for length in count(1):
+        for letters in product(ascii_lowercase, repeat=length):
+            yield "".join(letters)

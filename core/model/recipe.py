@@ -1,0 +1,25 @@
+"""The numeric recipe of a layer: how finely it is meshed, and what it is made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Method = Literal["arap", "linear"]
+Material = Literal["symmetric-dirichlet", "st-venant-kirchhoff"]
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Settings of the mapping and of the in-betweens."""
+
+    method: Method = "arap"
+    """How in-betweens are made: as rigidly as possible, or on straight vertex paths."""
+    density: int = 128
+    """Boundary vertices to aim for: the outline's edges are split to perimeter / density."""
+    material: Material = "symmetric-dirichlet"
+    """The energy that places interior vertices: least distortion, or the paper's material."""
+    mu: float = 1.0
+    """μ of the St. Venant–Kirchhoff material: resistance to strain."""
+    lam: float = 1.0
+    """λ of the St. Venant–Kirchhoff material: resistance to a change of area."""

@@ -1,0 +1,75 @@
+"""From a document and its solved spans to the picture at a frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from core.geometry.flatten import flatten
+from core.model import Document, Layer, Outline, Recipe, RingPoint
+from core.model.outline import Array
+from core.model.picture import Picture, Shape
+from core.morph.morph import Morph
+from core.morph.pipeline import solve_outlines
+from core.progress import Progress, silent
+
+
+@dataclass(frozen=True)
+class Span:
+    """All that the solution between two neighbouring keyframes depends on; compared by value."""
+
+    source: Outline
+    target: Outline
+    marks: tuple[tuple[RingPoint, RingPoint], ...]
+    recipe: Recipe
+
+
+MorphOf = Callable[[Span], Morph | None]
+"""Looks a span's solution up; None while there is none."""
+
+
+def span_of(layer: Layer, index: int) -> Span:
+    """Return what span ``index`` of a layer depends on."""
+    source, target = layer.keyframes[index : index + 2]
+    pairs = tuple(zip(source.marks, target.marks, strict=True))
+    return Span(source.outline, target.outline, pairs, layer.recipe)
+
+
+def spans_of(document: Document) -> list[Span]:
+    """Return every span of every layer, each once."""
+    spans = [span_of(layer, i) for layer in document.layers for i in range(layer.spans)]
+    return list(dict.fromkeys(spans))
+
+
+def solve_span(span: Span, progress: Progress = silent) -> Morph:
+    """Solve one span; the errors and progress are those of ``solve_outlines``."""
+    return solve_outlines(
+        span.source, span.target, span.marks, recipe=span.recipe, progress=progress
+    )
+
+
+def layer_rings(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[Array, ...]:
+    """Return what a layer shows at a frame, as closed polylines (k, 2), exterior first.
+
+    Between keys it is the in-between at the eased time; a key, and a span that has no solution
+    yet, shows the keyframe's own outline.
+    """
+    index, t = layer.span_at(frame)
+    s = layer.keyframes[index].easing(t)
+    if s not in (0.0, 1.0):  # an easing may also overshoot
+        morph = morph_of(span_of(layer, index))
+        if morph is not None:
+            positions = morph.at(s)
+            return tuple(positions[ring] for ring in morph.rings)
+    key = layer.keyframes[index + (s >= 0.5 and layer.spans > 0)]
+    return tuple(polyline.points for polyline in flatten(key.outline))
+
+
+def picture_at(document: Document, frame: float, morph_of: MorphOf) -> Picture:
+    """Return the visible layers at a frame."""
+    shapes = tuple(
+        Shape(layer.id, layer.name, layer.style, layer_rings(layer, frame, morph_of))
+        for layer in document.layers
+        if layer.visible
+    )
+    return Picture(frame, document.size, document.background, shapes)

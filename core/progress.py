@@ -1,0 +1,15 @@
+"""How long work speaks to its caller."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+Progress = Callable[[float, str], None]
+"""Called as ``progress(fraction, stage)``, fraction in [0, 1], between the steps of long work.
+
+It may raise ``Cancelled``: that is how a caller stops the work.
+"""
+
+
+def silent(fraction: float, stage: str) -> None:
+    """Ignore progress."""
