@@ -1,0 +1,48 @@
+"""What every widget is handed: the document, where the artist is in it, and how it is shown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from PySide6.QtCore import QObject, Signal
+
+if TYPE_CHECKING:
+    from app.document.playhead import Playhead
+    from app.document.selection import Selection
+    from app.document.session import Session
+    from app.jobs.solver import Solver
+
+Layout = Literal["side by side", "overlay"]
+
+
+class ViewOptions(QObject):
+    """What the canvas shows; not part of the document."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.mesh = False
+        self.onion = True
+        self.marks = True
+        self.layout: Layout = "side by side"
+
+    def update(self, **changes: object) -> None:
+        """Set options by name; ``changed`` is emitted once, if anything did change."""
+        changes = {name: value for name, value in changes.items() if getattr(self, name) != value}
+        for name, value in changes.items():
+            setattr(self, name, value)
+        if changes:
+            self.changed.emit()
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """One open window's state."""
+
+    session: Session
+    selection: Selection
+    playhead: Playhead
+    solver: Solver
+    view: ViewOptions
