@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from core.geometry.flatten import flatten
 from core.model import Document, Layer, Outline, Recipe, RingPoint
 from core.model.outline import Array
 from core.model.picture import Picture, Shape
-from core.morph.morph import Morph
-from core.morph.pipeline import solve_outlines
 from core.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from core.morph.morph import Morph
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,7 @@ class Span:
     recipe: Recipe
 
 
-MorphOf = Callable[[Span], Morph | None]
+MorphOf = Callable[[Span], "Morph | None"]
 """Looks a span's solution up; None while there is none."""
 
 
@@ -43,6 +45,8 @@ def spans_of(document: Document) -> list[Span]:
 
 def solve_span(span: Span, progress: Progress = silent) -> Morph:
     """Solve one span; the errors and progress are those of ``solve_outlines``."""
+    from core.morph.pipeline import solve_outlines  # scipy loads with the first solve, not before
+
     return solve_outlines(
         span.source, span.target, span.marks, recipe=span.recipe, progress=progress
     )
