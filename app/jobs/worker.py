@@ -1,0 +1,132 @@
+"""One long-lived thread that does one piece of work at a time."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
+
+from core.errors import Cancelled, MorphError
+from core.progress import Progress
+
+Work = Callable[[Progress], Any]
+"""Runs in the thread. It may touch nothing but what it was given, and that must be immutable."""
+
+REPORT_EVERY = 0.03
+"""Seconds between two progress reports of the same stage."""
+STACK = 16 * 2**20
+"""Bytes: the mesher recurses deeper than the default stack of a thread allows on some systems."""
+
+log = logging.getLogger(__name__)
+
+
+class Worker(QObject):
+    """Runs work off the UI thread. It belongs to the UI thread, and emits only there."""
+
+    done = Signal(int, object)
+    """Job number, and what the work returned or the MorphError that it raised."""
+    progressed = Signal(float, str)
+    """Fraction and stage of the work under way."""
+
+    _posted = Signal(object)
+
+    def __init__(self, name: str, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._number = 0
+        self._job: _Job | None = None
+        self._thread = QThread(self, objectName=name)
+        self._thread.setStackSize(STACK)
+        self._runner: _Runner | None = _Runner()
+        self._runner.moveToThread(self._thread)
+        self._posted.connect(self._runner.run, Qt.ConnectionType.QueuedConnection)
+        self._runner.done.connect(self._on_done, Qt.ConnectionType.QueuedConnection)
+        self._runner.progressed.connect(self._on_progressed, Qt.ConnectionType.QueuedConnection)
+        self._thread.start()
+
+    @property
+    def busy(self) -> bool:
+        """Whether work is under way, cancelled work that has not stopped yet included."""
+        return self._job is not None
+
+    @property
+    def closed(self) -> bool:
+        """Whether ``close`` was called."""
+        return self._runner is None
+
+    def start(self, work: Work) -> int:
+        """Start work and return its job number; only when not busy."""
+        assert not self.busy, "one piece of work at a time"
+        self._number += 1
+        self._job = _Job(self._number, work)
+        self._posted.emit(self._job)
+        return self._number
+
+    def cancel(self) -> None:
+        """Ask the work under way to stop; ``done`` then brings ``Cancelled``, or its result."""
+        if self._job:
+            self._job.stop.set()
+
+    def close(self) -> None:
+        """Stop the work and end the thread; nothing is emitted any more."""
+        if self._runner is None:
+            return
+        self.cancel()
+        self._runner.done.disconnect(self._on_done)
+        self._runner.progressed.disconnect(self._on_progressed)
+        self._thread.quit()
+        self._thread.wait()
+        self._job = self._runner = None
+
+    @Slot(int, object)
+    def _on_done(self, number: int, outcome: object) -> None:
+        self._job = None
+        self.done.emit(number, outcome)
+
+    @Slot(float, str)
+    def _on_progressed(self, fraction: float, stage: str) -> None:
+        if self._job and not self._job.stop.is_set():
+            self.progressed.emit(fraction, stage)
+
+
+class _Job:
+    def __init__(self, number: int, work: Work) -> None:
+        self.number, self.work = number, work
+        self.stop = threading.Event()
+
+
+class _Runner(QObject):
+    """The half that lives in the thread."""
+
+    done = Signal(int, object)
+    progressed = Signal(float, str)
+
+    @Slot(object)
+    def run(self, job: _Job) -> None:
+        """Do the work of a job."""
+        last: tuple[float, str] = (-REPORT_EVERY, "")
+
+        def report(fraction: float, stage: str) -> None:
+            nonlocal last
+            if job.stop.is_set():
+                raise Cancelled
+            now = time.monotonic()
+            if stage != last[1] or now >= last[0] + REPORT_EVERY:
+                last = now, stage
+                self.progressed.emit(fraction, stage)
+
+        try:
+            report(0.0, "")
+            outcome = job.work(report)
+        except MorphError as error:
+            outcome = error
+        except Exception as fault:
+            log.exception("Work in the background failed")
+            outcome = MorphError(
+                f"The program failed at this ({type(fault).__name__}: {fault}).",
+                hint="Nothing of yours is lost. Undo the last change, or save and report it.",
+            )
+        self.done.emit(job.number, outcome)

@@ -1,0 +1,52 @@
+"""A workspace to test widgets on, and the rule that no test leaves a thread running."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator
+
+import pytest
+from PySide6.QtCore import QObject, QStandardPaths, QThread
+
+from app.document.playhead import Playhead
+from app.document.selection import Selection
+from app.document.session import Session
+from app.jobs.solver import Solve, Solver
+from app.workspace import ViewOptions, Workspace
+from core.model import Document
+from core.morph.scene import solve_span
+
+QStandardPaths.setTestModeEnabled(True)
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left_running() -> Iterator[None]:
+    """Fail a test after which a thread is still running."""
+    yield
+    running = [t.objectName() for t in gc.get_objects() if isinstance(t, QThread) and _runs(t)]
+    assert not running, f"threads left running: {running}"
+
+
+def _runs(thread: QThread) -> bool:
+    try:
+        return thread.isRunning()
+    except RuntimeError:  # Qt has deleted it
+        return False
+
+
+@pytest.fixture
+def open_workspace(qapp: QObject) -> Iterator[Callable[..., Workspace]]:
+    """Open a workspace on a document, with a solve function of the test's choice."""
+    opened: list[Workspace] = []
+
+    def open_it(document: Document | None = None, solve: Solve = solve_span) -> Workspace:
+        session = Session(document)
+        selection, playhead = Selection(session), Playhead(session)
+        solver = Solver(session, selection, playhead, solve)
+        opened.append(Workspace(session, selection, playhead, solver, ViewOptions()))
+        return opened[-1]
+
+    yield open_it
+    for workspace in opened:
+        workspace.solver.close()
+        workspace.session.close()

@@ -1,0 +1,326 @@
+"""The solver keeps up with the artist: newest wins, nothing stale passes for exact."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QThread
+from pytestqt.qtbot import QtBot
+
+from app.jobs.solver import REMEMBERED, SpanState
+from app.workspace import Workspace
+from core.errors import SolveError
+from core.model import Document, Keyframe, Layer, Outline
+from core.model.edits import move_nodes, update_layer
+from core.morph.scene import Span, span_of
+from core.progress import Progress
+
+SQUARE = Outline.polygon([(0, 0), (10, 0), (10, 10), (0, 10)])
+
+
+class Bench:
+    """A solve function that finishes when the test lets it."""
+
+    def __init__(self) -> None:
+        self.started: list[Span] = []
+        self.threads: set[int] = set()
+        self.gate = threading.Event()
+        self.passed: set[Span] = set()
+        self.broken: set[Span] = set()
+        self.gate.set()
+
+    def __call__(self, span: Span, progress: Progress) -> object:
+        self.threads.add(threading.get_ident())
+        self.started.append(span)
+        while not (self.gate.wait(0.001) or span in self.passed):
+            progress(0.5, "Placing")
+        if span in self.broken:
+            raise SolveError("This cannot be solved.")
+        return Solution(span)
+
+
+class Solution:
+    def __init__(self, span: Span) -> None:
+        self.span = span
+
+
+def document(*layers: tuple[int, int]) -> Document:
+    """A document with one layer for each (id, number of keyframes)."""
+
+    def keyframe(layer: int, index: int) -> Keyframe:
+        return Keyframe(1 + 12 * index, SQUARE.transformed(np.eye(2) * (1 + index), (layer, 0)))
+
+    return Document(
+        tuple(
+            Layer(layer, f"layer {layer}", tuple(keyframe(layer, i) for i in range(keys)))
+            for layer, keys in layers
+        )
+    )
+
+
+def span(workspace: Workspace, layer: int = 1, index: int = 0) -> Span:
+    return span_of(workspace.session.document.layer(layer), index)
+
+
+def nudge(workspace: Workspace, layer: int = 1, key: int = 1) -> None:
+    workspace.session.apply("Move", move_nodes, layer, key, 0, [0], (-0.25, 0))
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+@pytest.fixture
+def workspace(open_workspace: Callable[..., Workspace], bench: Bench) -> Workspace:
+    return open_workspace(document((1, 2)), bench)
+
+
+def solved(workspace: Workspace, layer: int = 1, index: int = 0) -> Callable[[], bool]:
+    return lambda: workspace.solver.state(layer, index) is SpanState.SOLVED
+
+
+def test_an_edit_is_solved_in_one_other_thread_and_shown_when_done(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    nudge(workspace)
+    assert workspace.solver.state(1, 0) is SpanState.SOLVING
+    with qtbot.waitSignal(workspace.solver.updated):
+        pass
+    assert workspace.solver.morph_of(span(workspace)).span == span(workspace)
+    assert workspace.solver.state(1, 0) is SpanState.SOLVED
+    assert len(bench.threads) == 1
+    assert threading.get_ident() not in bench.threads
+
+
+def test_the_last_good_solution_stays_until_the_new_one_is_there(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    before = span(workspace)
+    bench.gate.clear()
+    nudge(workspace)
+    assert workspace.solver.morph_of(span(workspace)).span == before
+    bench.gate.set()
+    qtbot.waitUntil(solved(workspace))
+    assert workspace.solver.morph_of(span(workspace)).span == span(workspace)
+
+
+def test_the_newest_edit_wins_and_those_in_between_are_never_solved(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    bench.gate.clear()
+    qtbot.waitUntil(lambda: len(bench.started) == 1)
+    for _ in range(20):
+        nudge(workspace)
+    bench.gate.set()
+    qtbot.waitUntil(solved(workspace))
+    assert bench.started[-1] == span(workspace)
+    assert len(bench.started) <= 2
+
+
+def test_something_moves_while_dragging_though_every_job_comes_too_late(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    bench.gate.clear()
+    nudge(workspace)
+    late = span(workspace)
+    nudge(workspace)
+    bench.passed.add(late)
+    qtbot.waitUntil(lambda: workspace.solver.morph_of(span(workspace)).span == late)
+    assert workspace.solver.state(1, 0) is SpanState.SOLVING
+
+
+def test_an_obsolete_job_is_cancelled_when_the_artist_pauses(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    bench.gate.clear()
+    qtbot.waitUntil(lambda: len(bench.started) == 1)
+    nudge(workspace)
+    bench.passed.add(span(workspace))
+    qtbot.waitUntil(solved(workspace))
+    assert len(bench.started) == 2
+
+
+def test_undo_and_redo_show_known_solutions_without_solving(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    nudge(workspace)
+    qtbot.waitUntil(solved(workspace))
+    count = len(bench.started)
+    for step in (workspace.session.undo, workspace.session.redo):
+        step()
+        assert workspace.solver.state(1, 0) is SpanState.SOLVED
+        assert workspace.solver.morph_of(span(workspace)).span == span(workspace)
+        assert not workspace.solver.busy
+    assert len(bench.started) == count
+
+
+def test_a_change_of_colour_or_name_solves_nothing(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    workspace.session.apply("Rename", update_layer, 1, name="fin")
+    assert workspace.solver.state(1, 0) is SpanState.SOLVED
+    assert len(bench.started) == 1
+
+
+def test_the_span_under_the_playhead_comes_first_then_its_layer_then_the_others(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    bench.gate.clear()
+    workspace = open_workspace(document((1, 2), (2, 4)), bench)
+    workspace.playhead.move_to(30)
+    nudge(workspace, 2, 1)  # changes spans 0 and 1, so that span 0 is not started with
+    bench.gate.set()
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    order = [(2, 2), (2, 0), (2, 1), (1, 0)]
+    assert bench.started[-4:] == [span(workspace, *key) for key in order]
+
+
+def test_hidden_layers_are_not_solved_and_shown_ones_are(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    workspace = open_workspace(document((1, 2), (2, 2)), bench)
+    workspace.session.apply("Hide", update_layer, 1, visible=False)
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    assert span(workspace, 1) not in bench.started
+    assert workspace.solver.state(1, 0) is SpanState.NONE
+    workspace.session.apply("Show", update_layer, 1, visible=True)
+    qtbot.waitUntil(solved(workspace, 1))
+
+
+def test_an_error_is_told_once_kept_by_span_and_cleared_when_solved(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    good = span(workspace)
+    told: list[object] = []
+    workspace.solver.failed.connect(told.append)
+    bench.gate.clear()
+    nudge(workspace)
+    bench.broken.add(span(workspace))
+    bench.gate.set()
+    qtbot.waitUntil(lambda: workspace.solver.state(1, 0) is SpanState.FAILED)
+    assert told == [workspace.solver.errors[1, 0]]
+    assert workspace.solver.morph_of(span(workspace)).span == good
+    bench.gate.clear()
+    nudge(workspace)
+    assert workspace.solver.errors  # until the new one is known to be sound
+    bench.gate.set()
+    qtbot.waitUntil(solved(workspace))
+    assert not workspace.solver.errors
+
+
+def test_a_fault_in_the_solver_is_told_as_an_error_and_the_next_edit_is_solved(
+    open_workspace: Callable[..., Workspace], qtbot: QtBot
+) -> None:
+    faults = iter([ZeroDivisionError("a fault of ours")])
+
+    def solve(span: Span, progress: Progress) -> object:
+        for fault in faults:
+            raise fault
+        return Solution(span)
+
+    workspace = open_workspace(document((1, 2)), solve)
+    with qtbot.waitSignal(workspace.solver.failed) as failed:
+        pass
+    assert "a fault of ours" in failed.args[0].what
+    nudge(workspace)
+    qtbot.waitUntil(solved(workspace))
+
+
+def test_cancel_stops_until_the_next_edit_or_until_asked(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    bench.gate.clear()
+    qtbot.waitUntil(lambda: len(bench.started) == 1)
+    workspace.solver.cancel()
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    assert workspace.solver.state(1, 0) is SpanState.NONE
+    workspace.solver.resume()
+    assert workspace.solver.state(1, 0) is SpanState.SOLVING
+    bench.gate.set()
+    qtbot.waitUntil(solved(workspace))
+
+
+def test_progress_names_the_stage(workspace: Workspace, bench: Bench, qtbot: QtBot) -> None:
+    bench.gate.clear()
+    with qtbot.waitSignal(
+        workspace.solver.progress, check_params_cb=lambda done, stage: stage == "Placing"
+    ) as progress:
+        nudge(workspace)
+    assert progress.args == [0.5, "Placing"]
+
+
+def test_busy_is_told_once_for_a_run_of_jobs(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    bench.gate.clear()
+    workspace = open_workspace(document((1, 4), (2, 4)), bench)
+    told: list[bool] = []
+    workspace.solver.busy_changed.connect(told.append)
+    bench.gate.set()
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    assert told == [False]
+
+
+def test_another_document_never_shows_solutions_of_the_last_one(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    bench.gate.clear()
+    nudge(workspace)
+    late = span(workspace)
+    qtbot.waitUntil(lambda: late in bench.started)
+    workspace.session.replace(move_nodes(document((1, 3)), 1, 1, 0, [0, 1], (1, 0)))
+    assert workspace.solver.morph_of(span(workspace)) is None
+    bench.passed.add(late)
+    qtbot.waitUntil(lambda: bench.started[-1] == span(workspace))
+    assert workspace.solver.morph_of(span(workspace)) is None
+
+
+def test_more_spans_than_are_remembered_are_all_solved_once(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    workspace = open_workspace(document((1, REMEMBERED + 10)), bench)
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    assert len(bench.started) == REMEMBERED + 9
+
+
+def test_old_solutions_are_forgotten_in_the_order_of_their_last_use(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    for _ in range(REMEMBERED + 3):
+        nudge(workspace)
+        qtbot.waitUntil(solved(workspace))
+    count = len(bench.started)
+    for _ in range(REMEMBERED):
+        workspace.session.undo()
+        assert solved(workspace)()
+    for _ in range(3):
+        workspace.session.undo()
+    qtbot.waitUntil(solved(workspace))
+    assert len(bench.started) > count
+
+
+def test_closing_while_solving_ends_the_thread_and_restores_the_interpreter(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    before = sys.getswitchinterval()
+    bench.gate.clear()
+    workspace = open_workspace(document((1, 2)), bench)
+    qtbot.waitUntil(lambda: len(bench.started) == 1)
+    thread = workspace.solver.findChild(QThread)
+    assert thread.isRunning()
+    workspace.solver.close()
+    assert thread.isFinished()
+    assert sys.getswitchinterval() == before
