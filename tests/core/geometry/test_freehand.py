@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -23,7 +25,7 @@ def circle(turns: float = 1.0, radius: float = 100.0, count: int = 120) -> np.nd
 def rectangle(width: float = 200.0, height: float = 100.0) -> np.ndarray:
     corners = np.array([[0, 0], [width, 0], [width, height], [0, height], [0, 0]], dtype=float)
     u = np.linspace(0, 1, 30, endpoint=False)[:, None]
-    sides = [(1 - u) * a + u * b for a, b in zip(corners, corners[1:], strict=False)]
+    sides = [(1 - u) * a + u * b for a, b in pairwise(corners)]
     return np.vstack(sides)
 
 
@@ -111,8 +113,9 @@ def test_the_ring_stays_close_to_the_stroke(amplitudes: list[float], count: int)
 @given(st.floats(0.01, 1000), st.floats(-500, 500), st.floats(-500, 500))
 def test_size_and_place_do_not_matter(scale: float, x: float, y: float):
     drawn = fit_stroke(rectangle(), TOLERANCE)
-    moved = fit_stroke(scale * (rectangle() + [x, y]), scale * TOLERANCE)
-    np.testing.assert_allclose(moved.points, scale * (drawn.points + [x, y]), atol=scale * 1e-3)
+    offset = np.array([x, y])
+    moved = fit_stroke(scale * (rectangle() + offset), scale * TOLERANCE)
+    np.testing.assert_allclose(moved.points, scale * (drawn.points + offset), atol=scale * 1e-3)
 
 
 def test_real_silhouettes_keep_their_shape_with_fewer_nodes(shared_data):
