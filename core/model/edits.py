@@ -36,6 +36,15 @@ def add_layer(document: Document, name: str, frame: int, outline: Outline) -> Do
     return replace(document, layers=(*document.layers, layer))
 
 
+def duplicate_layer(document: Document, layer_id: int, name: str) -> Document:
+    """Add a copy of a layer right above it."""
+    new_id = max(layer.id for layer in document.layers) + 1
+    layers = list(document.layers)
+    index = layers.index(document.layer(layer_id))
+    layers.insert(index + 1, replace(layers[index], id=new_id, name=name))
+    return replace(document, layers=tuple(layers))
+
+
 def remove_layer(document: Document, layer_id: int) -> Document:
     """Remove a layer."""
     kept = tuple(layer for layer in document.layers if layer.id != layer_id)
@@ -46,7 +55,7 @@ def reorder_layer(document: Document, layer_id: int, index: int) -> Document:
     """Move a layer to a position in the stack, bottom = 0."""
     layer = document.layer(layer_id)
     layers = [other for other in document.layers if other.id != layer_id]
-    layers.insert(index, layer)
+    layers.insert(max(index, 0), layer)
     return _changed(document, layers=tuple(layers))
 
 
@@ -78,6 +87,7 @@ def remove_keyframe(document: Document, layer_id: int, key: int) -> Document:
     """Remove a keyframe; a layer keeps at least one."""
 
     def edit(layer: Layer) -> Layer:
+        _keyframe(layer, key)
         if len(layer.keyframes) == 1:
             raise EditError(
                 "A layer needs at least one keyframe.", hint="Delete the layer instead."
@@ -91,6 +101,7 @@ def move_keyframe(document: Document, layer_id: int, key: int, frame: int) -> Do
     """Move a keyframe in time, without passing or covering a neighbour."""
 
     def edit(layer: Layer) -> Layer:
+        _keyframe(layer, key)
         before = layer.keyframes[key - 1].frame if key > 0 else -np.inf
         after = layer.keyframes[key + 1].frame if key + 1 < len(layer.keyframes) else np.inf
         if not before < frame < after:
@@ -151,7 +162,7 @@ def set_handles(
 
 def insert_node(document: Document, layer_id: int, key: int, place: RingPoint) -> Document:
     """Insert a node on the curve, without changing its shape; marks stay where they are."""
-    keyframe = document.layer(layer_id).keyframes[key]
+    keyframe = _keyframe(document.layer(layer_id), key)
     segment, u = int(place.at), place.at - int(place.at)
     if u == 0:
         return document
@@ -163,7 +174,7 @@ def insert_node(document: Document, layer_id: int, key: int, place: RingPoint) -
             return replace(mark, at=mark.at + 1)
         v = mark.at - segment
         at = segment + v / u if v < u else segment + 1 + (v - u) / (1 - u)
-        return replace(mark, at=at)
+        return replace(mark, at=_wrapped(at, len(ring)))
 
     ring = keyframe.outline.rings[place.ring].with_node(place.at)
     return _on_key(
@@ -179,7 +190,7 @@ def delete_nodes(
     document: Document, layer_id: int, key: int, ring: int, nodes: Sequence[int]
 ) -> Document:
     """Delete nodes; a ring keeps at least three. Marks move to the nearest place that is left."""
-    keyframe = document.layer(layer_id).keyframes[key]
+    keyframe = _keyframe(document.layer(layer_id), key)
     old = keyframe.outline.rings[ring]
     gone = np.unique(np.asarray(nodes, dtype=int))
     if len(old) - len(gone) < MIN_NODES:
@@ -197,7 +208,7 @@ def delete_nodes(
         start = kept[before] - (len(old) if before < 0 else 0)
         end = kept[before + 1] if before + 1 < len(kept) else kept[0] + len(old)
         u = (mark.at - start) / (end - start)
-        return replace(mark, at=float((before + u) % len(kept)))
+        return replace(mark, at=_wrapped(float(before + u), len(kept)))
 
     return _on_key(
         document,
@@ -212,7 +223,7 @@ def transform_outline(
     document: Document, layer_id: int, key: int, matrix: ArrayLike, offset: ArrayLike
 ) -> Document:
     """Apply x → M x + offset to a whole keyframe."""
-    keyframe = document.layer(layer_id).keyframes[key]
+    keyframe = _keyframe(document.layer(layer_id), key)
     return _on_key(document, layer_id, key, outline=keyframe.outline.transformed(matrix, offset))
 
 
@@ -237,7 +248,7 @@ def add_mark(document: Document, layer_id: int, places: Sequence[RingPoint]) -> 
 
 def move_mark(document: Document, layer_id: int, key: int, mark: int, place: RingPoint) -> Document:
     """Move a mark on one keyframe."""
-    marks = list(document.layer(layer_id).keyframes[key].marks)
+    marks = list(_keyframe(document.layer(layer_id), key).marks)
     marks[mark] = place
     return _on_key(document, layer_id, key, marks=tuple(marks))
 
@@ -271,8 +282,14 @@ def _on_layer(document: Document, layer_id: int, edit: Callable[[Layer], Layer])
     return _changed(document, layers=layers)
 
 
+def _keyframe(layer: Layer, key: int) -> Keyframe:
+    if not 0 <= key < len(layer.keyframes):
+        raise EditError(f"Layer “{layer.name}” has no such keyframe.")
+    return layer.keyframes[key]
+
+
 def _with_key(layer: Layer, key: int, **changes: Any) -> Layer:
-    changed = _changed(layer.keyframes[key], **changes)
+    changed = _changed(_keyframe(layer, key), **changes)
     return _changed(layer, keyframes=(*layer.keyframes[:key], changed, *layer.keyframes[key + 1 :]))
 
 
@@ -283,10 +300,15 @@ def _on_key(document: Document, layer_id: int, key: int, **changes: Any) -> Docu
 def _on_ring(
     document: Document, layer_id: int, key: int, ring: int, edit: Callable[[Ring], Ring]
 ) -> Document:
-    outline = document.layer(layer_id).keyframes[key].outline
+    outline = _keyframe(document.layer(layer_id), key).outline
     return _on_key(
         document, layer_id, key, outline=outline.with_ring(ring, edit(outline.rings[ring]))
     )
+
+
+def _wrapped(at: float, n: int) -> float:
+    at %= n
+    return at if at < n else 0.0  # just below zero, the remainder rounds up to n
 
 
 def _by_frame(keyframes: Sequence[Keyframe]) -> tuple[Keyframe, ...]:

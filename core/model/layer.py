@@ -50,12 +50,12 @@ class Layer:
         A key belongs to the span that it begins; the last key ends the last span at t = 1. A layer
         with one key answers (0, 0.0).
         """
+        if self.spans == 0:
+            return 0, 0.0
         frames = [key.frame for key in self.keyframes]
-        if frame >= frames[-1]:
-            return max(self.spans - 1, 0), float(self.spans > 0)
-        index = max(bisect_right(frames, frame) - 1, 0)
+        index = min(max(bisect_right(frames, frame) - 1, 0), self.spans - 1)
         t = (frame - frames[index]) / (frames[index + 1] - frames[index])
-        return index, max(t, 0.0)
+        return index, min(max(t, 0.0), 1.0)
 
     def key_at(self, frame: float) -> int | None:
         """Return the index of the keyframe at exactly this frame, if there is one."""

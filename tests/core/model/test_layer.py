@@ -1,0 +1,55 @@
+from __future__ import annotations
+
+from itertools import islice
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.model import Document, Layer
+from core.model.layer import mark_labels
+from tests.core.model.shapes import layers
+
+frames = st.floats(-50, 250)
+
+
+@given(layers(), frames)
+def test_span_and_time_lead_back_to_the_frame(layer: Layer, frame: float) -> None:
+    index, t = layer.span_at(frame)
+    assert 0.0 <= t <= 1.0
+    first, last = layer.keyframes[0].frame, layer.keyframes[-1].frame
+    if layer.spans:
+        start, end = (key.frame for key in layer.keyframes[index : index + 2])
+        assert start + t * (end - start) == pytest.approx(min(max(frame, first), last))
+
+
+@given(layers())
+def test_a_key_begins_its_span_and_the_last_key_ends_the_last_one(layer: Layer) -> None:
+    *starts, last = layer.keyframes
+    assert [layer.span_at(key.frame) for key in starts] == [(i, 0.0) for i in range(len(starts))]
+    assert layer.span_at(last.frame) == (max(layer.spans - 1, 0), float(layer.spans > 0))
+
+
+@given(layers(max_keys=1), frames)
+def test_a_single_key_stands_still_for_ever(layer: Layer, frame: float) -> None:
+    assert layer.span_at(frame) == (0, 0.0)
+
+
+@given(layers(), frames)
+def test_a_key_is_found_at_its_frame_and_nowhere_else(layer: Layer, frame: float) -> None:
+    for index, key in enumerate(layer.keyframes):
+        assert layer.key_at(key.frame) == index
+    on_a_key = frame in {key.frame for key in layer.keyframes}
+    assert (layer.key_at(frame) is not None) == on_a_key
+
+
+def test_marks_are_lettered_a_to_z_and_on_from_aa() -> None:
+    labels = list(islice(mark_labels(), 26 * 27 + 1))
+    assert labels[:2] + labels[25:28] + labels[-2:] == ["a", "b", "z", "aa", "ab", "zz", "aaa"]
+    assert len(set(labels)) == len(labels)
+
+
+@given(st.lists(layers(), max_size=3))
+def test_a_document_spans_from_its_first_key_to_its_last(stack: list[Layer]) -> None:
+    keys = [key.frame for layer in stack for key in layer.keyframes] or [1]
+    assert Document(tuple(stack)).frames == (min(keys), max(keys))
