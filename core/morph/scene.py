@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from core.geometry.flatten import flatten
-from core.model import Document, Layer, Outline, Recipe, RingPoint
+from core.geometry.places import nearest_place
+from core.model import Document, Keyframe, Layer, Outline, Recipe, RingPoint
 from core.model.outline import Array
 from core.model.picture import Picture, Shape
 from core.progress import Progress, silent
@@ -77,3 +78,23 @@ def picture_at(document: Document, frame: float, morph_of: MorphOf) -> Picture:
         if layer.visible
     )
     return Picture(frame, document.size, document.background, shapes)
+
+
+def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> Keyframe:
+    """Return what the layer shows at a frame as a keyframe of its own, to be inserted there.
+
+    The in-between becomes an outline of straight segments, with every mark at its place on it.
+    Outside the layer's keys, and in a span without a solution, the nearest key is repeated.
+    """
+    index, t = layer.span_at(frame)
+    s = layer.keyframes[index].easing(t)
+    morph = morph_of(span_of(layer, index)) if 0 < s < 1 else None
+    if morph is None:
+        return replace(layer.keyframes[index + (s >= 0.5 and layer.spans > 0)], frame=frame)
+    source, positions = layer.keyframes[index], morph.at(s)
+    rest = Outline.polygon(*(morph.rest[ring] for ring in morph.rings))
+    marks = tuple(
+        nearest_place(rest, source.outline.position(mark))[0] for mark in source.marks
+    )  # same vertices, so a place at rest is the place in the in-between
+    outline = Outline.polygon(*(positions[ring] for ring in morph.rings))
+    return Keyframe(frame, outline, marks, source.easing)

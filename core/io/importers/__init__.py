@@ -1,0 +1,63 @@
+"""Shapes from files: one module a format, behind this registry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from core.errors import FileError, Where
+from core.io.importers import points_csv, points_json, svg
+from core.io.importers.part import Part, Warn, ignore
+from core.io.replacing import unreadable
+
+MAX_BYTES = 64 * 2**20
+"""Largest file that is read."""
+
+
+@dataclass(frozen=True)
+class ImportFormat:
+    """A format that shapes are read from."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    read: Callable[[bytes, str, Warn], list[Part]]
+    """From the content and a name for what has none of its own to the parts."""
+
+    @property
+    def filter(self) -> str:
+        """The entry of a file dialog."""
+        return f"{self.name} ({' '.join(f'*{suffix}' for suffix in self.suffixes)})"
+
+
+FORMATS = (
+    ImportFormat("SVG drawing", (".svg",), svg.read),
+    ImportFormat("Point list", (".csv", ".tsv", ".txt"), points_csv.read),
+    ImportFormat("JSON point list", (".json",), points_json.read),
+)
+
+
+def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
+    """Return the shapes in a file, at least one; ``warn`` hears what had to be left out.
+
+    FileError when it cannot be read or holds no shape.
+    """
+    path = Path(path)
+    found = next((f for f in FORMATS if path.suffix.lower() in f.suffixes), None)
+    try:
+        if found is None:
+            known = ", ".join(suffix for f in FORMATS for suffix in f.suffixes)
+            raise FileError(f"The format is not known; it can be {known}.")
+        if path.stat().st_size > MAX_BYTES:
+            raise FileError(f"The file is larger than {MAX_BYTES >> 20} MB.")
+        parts = found.read(path.read_bytes(), path.stem, warn)
+        if not parts:
+            raise FileError("The file holds no shape with an area.")
+        return parts
+    except OSError as error:
+        raise unreadable(path, error) from error
+    except FileError as error:
+        raise FileError(error.what, where=Where(path=str(path)), hint=error.hint) from error
+
+
+__all__ = ["FORMATS", "ImportFormat", "Part", "Warn", "read"]

@@ -1,0 +1,33 @@
+"""Distortion of a map and of its inverse alike (Smith and Schaefer 2015)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.fem.energies.density import Derivatives
+from core.model.outline import Array
+
+
+@dataclass(frozen=True)
+class SymmetricDirichlet:
+    """ψ = (‖F‖² + ‖F⁻¹‖²) / 4: 1 for an isometry, infinite for a flat triangle."""
+
+    barrier: bool = True
+
+    def value(self, s1: Array, s2: Array) -> Array:
+        """Return ψ (m,); infinite where J ≤ 0."""
+        with np.errstate(divide="ignore"):
+            psi = (s1**2 + s2**2 + s1**-2.0 + s2**-2.0) / 4
+        return np.where(s2 > 0, psi, np.inf)
+
+    def derivatives(self, s1: Array, s2: Array) -> Derivatives:
+        """Return the derivatives of ψ."""
+        return Derivatives(
+            d1=(s1 - s1**-3.0) / 2,
+            d2=(s2 - s2**-3.0) / 2,
+            d11=(1 + 3 * s1**-4.0) / 2,
+            d12=np.zeros_like(s1),
+            d22=(1 + 3 * s2**-4.0) / 2,
+        )

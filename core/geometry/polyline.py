@@ -1,0 +1,61 @@
+"""Closed polylines (n, 2), first point not repeated: area, arc length, places along them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.model.outline import Array
+
+
+def signed_area(points: Array) -> float:
+    """Return the enclosed area, positive when the polyline turns from +x towards +y."""
+    p = points - points.mean(axis=0)  # far from the origin the products would cancel
+    q = np.roll(p, -1, axis=0)
+    return 0.5 * float(np.sum(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]))
+
+
+def arc_lengths(points: Array) -> Array:
+    """Return (n + 1,) arc length at each vertex, from 0 up to the perimeter at the closing one."""
+    edges = np.roll(points, -1, axis=0) - points
+    return np.concatenate([[0.0], np.cumsum(np.hypot(edges[:, 0], edges[:, 1]))])
+
+
+def points_at(points: Array, lengths: Array, at: Array) -> Array:
+    """Return (k, 2) points at arc lengths (k,), taken modulo the perimeter.
+
+    ``lengths`` is ``arc_lengths(points)``. An arc length that equals a vertex's gives that vertex
+    to the last bit.
+    """
+    closed = np.vstack([points, points[:1]])
+    at = np.mod(at, lengths[-1])
+    i = np.clip(np.searchsorted(lengths, at, side="right") - 1, 0, len(points) - 1)
+    span = lengths[i + 1] - lengths[i]
+    u = np.divide(at - lengths[i], span, out=np.zeros_like(at), where=span > 0)[:, None]
+    return np.where(u == 0, closed[i], (1 - u) * closed[i] + u * closed[i + 1])
+
+
+def nearest_length(points: Array, lengths: Array, point: Array) -> tuple[float, float]:
+    """Return (arc length of the closest place to a point, its distance)."""
+    start = points
+    edge = np.roll(points, -1, axis=0) - points
+    squared = np.einsum("ij,ij->i", edge, edge)
+    along = np.einsum("ij,ij->i", point - start, edge)
+    u = np.clip(np.divide(along, squared, out=np.zeros_like(along), where=squared > 0), 0, 1)
+    away = start + u[:, None] * edge - point
+    distance = np.hypot(away[:, 0], away[:, 1])
+    i = int(np.argmin(distance))
+    return float(lengths[i] + u[i] * (lengths[i + 1] - lengths[i])), float(distance[i])
+
+
+def resample(points: Array, count: int, start: float = 0.0) -> Array:
+    """Return (count, 2) points evenly spaced by arc length, the first at arc length ``start``."""
+    lengths = arc_lengths(points)
+    return points_at(points, lengths, start + np.arange(count) * (lengths[-1] / count))
+
+
+def turning_angles(points: Array) -> Array:
+    """Return (n,) exterior angles at the vertices in (-π, π]; positive where it turns left."""
+    edge = np.roll(points, -1, axis=0) - points
+    before = np.roll(edge, 1, axis=0)
+    cross = before[:, 0] * edge[:, 1] - before[:, 1] * edge[:, 0]
+    return np.arctan2(cross, np.einsum("ij,ij->i", before, edge))

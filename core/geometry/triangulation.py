@@ -1,0 +1,147 @@
+"""Triangulation of the inside of an outline: the one door to the ``triangle`` library.
+
+Only rings that have passed ``core.geometry.validate`` may come here: on repeated vertices, crossing
+segments or numbers that are not finite the library crashes or answers nonsense.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely import Polygon
+
+from core.errors import SolveError
+from core.model.outline import Array
+
+Indices = NDArray[np.int64]
+
+MIN_ANGLE = 30
+"""Degrees. The refinement is proved to end up to 20.7 and ends in practice to 33."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles, all positively oriented; boundary vertices come first, ring after ring."""
+
+    points: Array
+    """(n, 2)"""
+    triangles: Indices
+    """(m, 3)"""
+    rings: tuple[Indices, ...]
+    """Each ring as vertex indices, in order."""
+
+    @property
+    def boundary_size(self) -> int:
+        """How many vertices lie on the boundary: they are the first ones."""
+        return sum(len(ring) for ring in self.rings)
+
+
+def triangulate(rings: Sequence[Array], max_area: float) -> Mesh:
+    """Triangulate the inside of clean rings (exterior first), by constrained Delaunay refinement.
+
+    Boundary vertices and edges stay as given. ``max_area`` bounds the triangles.
+    """
+    import triangle  # loading it is slow, and only solving needs it
+
+    boundary = np.concatenate(rings)
+    indices, segments, start = [], [], 0
+    for ring in rings:
+        index = np.arange(start, start + len(ring))
+        indices.append(index)
+        segments.append(np.column_stack([index, np.roll(index, -1)]))
+        start += len(ring)
+    planar = {"vertices": boundary, "segments": np.concatenate(segments)}
+    if len(rings) > 1:
+        planar["holes"] = np.array(
+            [Polygon(ring).representative_point().coords[0] for ring in rings[1:]]
+        )
+    result = triangle.triangulate(planar, f"pYYq{MIN_ANGLE}a{max_area:.15f}")
+    points, triangles = result["vertices"], result["triangles"].astype(np.int64)
+    if not np.array_equal(points[: len(boundary)], boundary):
+        raise SolveError(
+            "The outline could not be triangulated with its own vertices.",
+            hint="Look for nodes that almost touch another edge and move them apart.",
+        )
+    return Mesh(points, _oriented(points, triangles), tuple(indices))
+
+
+def split_chords(mesh: Mesh) -> Mesh:
+    """Split every interior edge between two boundary vertices at its midpoint.
+
+    A chord's image is fixed by the boundary alone and may leave the target; and a corner that
+    becomes reflex needs two triangles. Split, both are free to move.
+    """
+    edges, sides, count = unique_edges(mesh.triangles)
+    chord = (count == 2) & (edges < mesh.boundary_size).all(axis=1)
+    if not chord.any():
+        return mesh
+    middle = np.full(len(edges), -1)
+    middle[chord] = len(mesh.points) + np.arange(chord.sum())
+    points = np.vstack([mesh.points, mesh.points[edges[chord]].mean(axis=1)])
+    triangles = _split(points, mesh.triangles, middle[sides])
+    return Mesh(points, triangles, mesh.rings)
+
+
+def unique_edges(triangles: Indices) -> tuple[Indices, Indices, Indices]:
+    """Return edges (e, 2), each triangle's edges (m, 3), and triangles per edge (e,).
+
+    Edge j of a triangle lies opposite its corner j.
+    """
+    pairs = np.sort(triangles[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
+    n = int(triangles.max()) + 1
+    _, first, inverse, count = np.unique(
+        pairs[:, 0] * n + pairs[:, 1], return_index=True, return_inverse=True, return_counts=True
+    )
+    return pairs[first], inverse.reshape(-1, 3), count
+
+
+def adjacent_triangles(triangles: Indices) -> Indices:
+    """Return (k, 2) the pairs of triangles that share an edge."""
+    _, sides, count = unique_edges(triangles)
+    order = np.argsort(sides.ravel(), kind="stable")
+    shared = order[np.repeat(count == 2, count)]
+    return (shared // 3).reshape(-1, 2)
+
+
+def _split(points: Array, triangles: Indices, middle: Indices) -> Indices:
+    """Cut triangles at the midpoints of their edges; ``middle`` (m, 3) holds -1 for uncut ones."""
+    cuts = (middle >= 0).sum(axis=1)
+    parts = [triangles[cuts == 0]]
+    for number in (1, 2, 3):
+        rows = np.flatnonzero(cuts == number)
+        # turn each triangle so that the odd edge out is the one opposite corner 0
+        odd = (middle[rows] >= 0) if number == 1 else (middle[rows] < 0)
+        turn = odd.argmax(axis=1)[:, None]
+        corner = np.take_along_axis(triangles[rows], (turn + np.arange(3)) % 3, axis=1)
+        cut = np.take_along_axis(middle[rows], (turn + np.arange(3)) % 3, axis=1)
+        (a, b, c), (p, q, r) = corner.T, cut.T  # p lies on bc, q on ca, r on ab
+        if number == 1:
+            pieces = [(a, b, p), (a, p, c)]
+        elif number == 2:
+            # the quadrilateral r b c q takes its shorter diagonal
+            short = _distance(points, r, c) <= _distance(points, b, q)
+            pieces = [
+                (a, r, q),
+                (r, b, np.where(short, c, q)),
+                (np.where(short, r, b), c, q),
+            ]
+        else:
+            pieces = [(a, r, q), (r, b, p), (q, p, c), (p, q, r)]
+        parts += [np.column_stack(piece) for piece in pieces]
+    return np.concatenate(parts)
+
+
+def _distance(points: Array, i: Indices, j: Indices) -> Array:
+    away = points[i] - points[j]
+    return np.hypot(away[:, 0], away[:, 1])
+
+
+def _oriented(points: Array, triangles: Indices) -> Indices:
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    flipped = area < 0
+    triangles[flipped] = triangles[flipped][:, [0, 2, 1]]
+    return triangles[area != 0]

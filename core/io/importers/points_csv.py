@@ -1,0 +1,98 @@
+"""Point lists as text: one point a line, a blank line between rings.
+
+Numbers are parted by commas, semicolons, tabs or spaces. A header may name the columns. Lines
+that begin with # are comments. Where the separator is not a comma, a decimal comma is understood.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from core.errors import FileError
+from core.io.importers.part import Part, Warn
+from core.io.importers.points import Points, parts_of
+
+
+def read(data: bytes, name: str, warn: Warn) -> list[Part]:
+    """Return the polygons of a point list."""
+    try:
+        lines = data.decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError as error:
+        raise FileError("This is not a text file.") from error
+    return parts_of(_rings(lines), name)
+
+
+def _rings(lines: list[str]) -> list[Points]:
+    rings: list[list[tuple[float, float]]] = [[]]
+    columns: tuple[int, int] | None = None
+    for number, line in enumerate(lines, 1):
+        cells = _cells(line)
+        if line.startswith("#"):
+            continue
+        if not cells:
+            rings.append([])
+            continue
+        if columns is None:
+            columns = _header(cells)
+            if columns is not None:
+                continue
+            columns = (0, 1)
+            if len(cells) > 2:
+                raise FileError(
+                    f"Line {number}: expected two numbers, found {len(cells)} columns.",
+                    hint="A header line that names the columns x and y tells which to take.",
+                )
+        rings[-1].append(_point(cells, columns, number))
+    return [ring for ring in rings if ring]
+
+
+def _cells(line: str) -> list[str]:
+    """Split a line; a separator at its end adds no cell."""
+    line = line.strip()
+    for separator in (";", "\t"):
+        if separator in line:
+            cells = line.split(separator)
+            break
+    else:
+        if "," in line and not _decimal_commas(line):
+            cells = line.split(",")
+        else:
+            return [cell.replace(",", ".") for cell in line.split()]
+        separator = ","
+    while cells and not cells[-1].strip():
+        cells.pop()
+    cells = [cell.strip().strip("\"'") for cell in cells]
+    return cells if separator == "," else [cell.replace(",", ".") for cell in cells]
+
+
+def _decimal_commas(line: str) -> bool:
+    """Whether the line is two numbers like ``1,5 2,5``, parted by spaces."""
+    cells = line.split()
+    return len(cells) > 1 and all(cell.count(",") == 1 and cell[-1] != "," for cell in cells)
+
+
+def _header(cells: list[str]) -> tuple[int, int] | None:
+    """Return the columns of x and y if the line is a header, which holds no number at all."""
+    if any(_number(cell) is not None for cell in cells):
+        return None
+    names = [cell.lower() for cell in cells]
+    return (names.index("x"), names.index("y")) if {"x", "y"} <= set(names) else (0, 1)
+
+
+def _point(cells: list[str], columns: tuple[int, int], line: int) -> tuple[float, float]:
+    if len(cells) <= max(columns):
+        raise FileError(f"Line {line}: expected two numbers, found {len(cells)}.")
+    x, y = (_number(cells[column]) for column in columns)
+    if x is None or y is None:
+        wrong = cells[columns[0] if x is None else columns[1]]
+        raise FileError(f"Line {line}: {wrong!r} is not a number.")
+    if not (isfinite(x) and isfinite(y)):
+        raise FileError(f"Line {line}: the point is not finite.")
+    return x, y
+
+
+def _number(cell: str) -> float | None:
+    try:
+        return float(cell)
+    except ValueError:
+        return None

@@ -1,0 +1,82 @@
+"""SVG drawings: paths and basic shapes, with transforms, styles and holes; Béziers are kept."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING, Any
+
+from core.errors import FileError
+from core.io.importers.nesting import Rule, group_rings
+from core.io.importers.part import MAX_NODES, Part, Warn, numbered, uniquely_named
+from core.io.importers.svg.curves import rings_of
+from core.io.importers.svg.survey import NAME, survey
+from core.model import Style
+
+if TYPE_CHECKING:
+    from svgelements import Color, Shape
+
+PIXELS_PER_INCH = 96
+
+
+def read(data: bytes, name: str, warn: Warn) -> list[Part]:
+    """Return the shapes of a drawing that are shown, in drawing order."""
+    import svgelements
+
+    try:
+        drawing = svgelements.SVG.parse(
+            io.BytesIO(survey(data, warn)), reify=False, ppi=PIXELS_PER_INCH
+        )
+        shapes = [e for e in drawing.elements() if isinstance(e, svgelements.Shape)]
+        parts = [part for shape in shapes if _visible(shape) for part in _parts(shape, warn)]
+    except RecursionError as error:
+        raise FileError("The drawing is nested too deeply.") from error
+    except (ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
+        raise FileError(f"The drawing cannot be understood ({error}).") from error
+    if sum(len(ring) for part in parts for ring in part.outline.rings) > MAX_NODES:
+        raise FileError(f"The drawing has more than {MAX_NODES} nodes.")
+    return uniquely_named(parts)
+
+
+def _parts(shape: Shape, warn: Warn) -> list[Part]:
+    from svgelements import Path
+
+    name = shape.values["attributes"].get(NAME, type(shape).__name__.lower())
+    path = Path(shape)
+    rings, opened = rings_of(path)
+    style = _style(path, warn)
+    if not rings:
+        warn(f"“{name}” has no area and is left out.")
+        return []
+    if opened and style is not None and not style.fill:
+        warn(f"“{name}” is an open line; it is closed by a straight edge.")
+    rule: Rule = "evenodd" if shape.values.get("fill-rule") == "evenodd" else "nonzero"
+    return numbered(name, group_rings(rings, rule), style)
+
+
+def _visible(shape: Shape) -> bool:
+    return shape.values.get("visibility", "visible") == "visible"
+
+
+def _style(path: Any, warn: Warn) -> Style | None:
+    """Return how a reified path is painted; None for a shape that is not painted at all."""
+    opacity = path.values.get("opacity", 1)
+    fill, stroke = _colour(path.fill, opacity), _colour(path.stroke, opacity)
+    if "url(" in str(path.values.get("fill")):
+        fill = Style().fill
+    if not fill and not stroke:
+        return None
+    width = float(path.stroke_width) if stroke else Style().stroke_width
+    return Style(fill, stroke, width)
+
+
+def _colour(colour: Color | None, opacity: Any) -> str:
+    """Write a colour the way the model does."""
+    if colour is None or colour.value is None:
+        return ""
+    try:
+        visible = min(max(float(opacity), 0.0), 1.0)
+    except ValueError:
+        visible = 1.0
+    alpha = round(colour.alpha * visible)
+    solid = f"#{colour.red:02x}{colour.green:02x}{colour.blue:02x}"
+    return solid if alpha == 255 else f"{solid}{alpha:02x}"

@@ -1,0 +1,61 @@
+"""Files that are either whole or not there: written beside their place, then moved onto it."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from core.errors import FileError, Where
+
+
+@contextmanager
+def replacing(path: Path | str) -> Iterator[Path]:
+    """Yield an empty temporary file in the same folder; it replaces ``path`` if all goes well.
+
+    The old file stays untouched until then, and keeps its permissions afterwards. A link is
+    followed. FileError when the system refuses.
+    """
+    place = Path(os.path.realpath(path))
+    draft = place.with_name(f".betwixt-{secrets.token_hex(6)}.tmp")
+    try:
+        draft.touch(exist_ok=False)
+        yield draft
+        if place.exists():
+            shutil.copymode(place, draft)
+        _flush(draft)
+        os.replace(draft, place)
+        _flush(place.parent)
+    except OSError as error:
+        raise unwritable(path, error) from error
+    finally:
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)
+
+
+def unwritable(path: Path | str, error: OSError) -> FileError:
+    """Say why the system refused to write a file or folder."""
+    return FileError(
+        f"Cannot be written: {error.strerror or error}.",
+        where=Where(path=str(path)),
+        hint="Choose another folder, or check its permissions and free space.",
+    )
+
+
+def unreadable(path: Path | str, error: OSError) -> FileError:
+    """Say why the system refused to read a file."""
+    return FileError(f"Cannot be read: {error.strerror or error}.", where=Where(path=str(path)))
+
+
+def _flush(path: Path) -> None:
+    """Push a file, or the names in a folder, to the disk, where the system can."""
+    if path.is_dir() and os.name != "posix":
+        return  # only POSIX opens folders
+    handle = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

@@ -1,0 +1,123 @@
+"""What every document must satisfy, whatever file it comes from."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from math import isfinite
+
+import numpy as np
+
+from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Style
+from core.model.edits import MIN_NODES
+
+MAX_FRAME = 1_000_000
+MAX_DENSITY = 10_000
+COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
+
+Problem = tuple[str, str]
+"""Where, as in ``layers[0].keyframes[1].marks[2]``, and what is wrong there."""
+
+
+def problems(document: Document) -> Iterator[Problem]:
+    """Yield everything that is wrong with a document's structure; nothing when it is sound."""
+    yield from _positive("fps", document.fps)
+    for i, length in enumerate(document.size):
+        yield from _positive(f"size[{i}]", length)
+    yield from _colour("background", document.background)
+    seen: set[int] = set()
+    for i, layer in enumerate(document.layers):
+        path = f"layers[{i}]"
+        if layer.id in seen:
+            yield f"{path}.id", f"{layer.id} is the id of another layer too"
+        seen.add(layer.id)
+        yield from _layer(path, layer)
+
+
+def _layer(path: str, layer: Layer) -> Iterator[Problem]:
+    yield from _text(f"{path}.name", layer.name)
+    yield from _style(f"{path}.style", layer.style)
+    yield from _recipe(f"{path}.recipe", layer.recipe)
+    for i, label in enumerate(layer.labels):
+        yield from _text(f"{path}.labels[{i}]", label)
+        if label in layer.labels[:i]:
+            yield f"{path}.labels[{i}]", f"the letter {label!r} is used twice"
+    if not layer.keyframes:
+        yield f"{path}.keyframes", "a layer needs at least one keyframe"
+    before = -MAX_FRAME - 1
+    for i, key in enumerate(layer.keyframes):
+        place = f"{path}.keyframes[{i}]"
+        if key.frame <= before:
+            yield f"{place}.frame", f"frame {key.frame} does not come after frame {before}"
+        before = key.frame
+        yield from _keyframe(place, key, layer.labels)
+
+
+def _keyframe(path: str, key: Keyframe, labels: tuple[str, ...]) -> Iterator[Problem]:
+    if abs(key.frame) > MAX_FRAME:
+        yield f"{path}.frame", f"frame {key.frame} is further than {MAX_FRAME} from zero"
+    yield from _easing(f"{path}.easing", key.easing)
+    yield from _outline(f"{path}.outline", key.outline)
+    if len(key.marks) != len(labels):
+        yield f"{path}.marks", f"{len(key.marks)} places for {len(labels)} marks"
+    for i, mark in enumerate(key.marks):
+        yield from _mark(f"{path}.marks[{i}]", mark, key.outline)
+
+
+def _outline(path: str, outline: Outline) -> Iterator[Problem]:
+    if not outline.rings:
+        yield f"{path}.rings", "an outline needs at least one ring"
+    for i, ring in enumerate(outline.rings):
+        if len(ring) < MIN_NODES:
+            yield f"{path}.rings[{i}].points", f"a ring needs at least {MIN_NODES} nodes"
+        for name in ("points", "handles_in", "handles_out"):
+            for row in np.flatnonzero(~np.isfinite(getattr(ring, name)).all(axis=1))[:1]:
+                yield f"{path}.rings[{i}].{name}[{row}]", "not a finite number"
+
+
+def _mark(path: str, mark: RingPoint, outline: Outline) -> Iterator[Problem]:
+    if not 0 <= mark.ring < len(outline.rings):
+        yield f"{path}.ring", f"there is no ring {mark.ring}; the outline has {len(outline.rings)}"
+    elif not 0 <= mark.at <= (nodes := len(outline.rings[mark.ring])):  # n: rounded up to node 0
+        yield f"{path}.at", f"{mark.at} is not on the ring, which runs from 0 to {nodes}"
+
+
+def _easing(path: str, easing: Easing) -> Iterator[Problem]:
+    for name in ("x1", "x2"):
+        if not 0 <= getattr(easing, name) <= 1:
+            yield f"{path}.{name}", f"{getattr(easing, name)} is not between 0 and 1"
+    for name in ("y1", "y2"):
+        if not isfinite(getattr(easing, name)):
+            yield f"{path}.{name}", "not a finite number"
+
+
+def _style(path: str, style: Style) -> Iterator[Problem]:
+    yield from _colour(f"{path}.fill", style.fill)
+    yield from _colour(f"{path}.stroke", style.stroke)
+    if not (isfinite(style.stroke_width) and style.stroke_width >= 0):
+        yield f"{path}.stroke_width", f"{style.stroke_width} is not a width"
+
+
+def _recipe(path: str, recipe: Recipe) -> Iterator[Problem]:
+    if not MIN_NODES <= recipe.density <= MAX_DENSITY:
+        yield f"{path}.density", f"{recipe.density} is not between {MIN_NODES} and {MAX_DENSITY}"
+    yield from _positive(f"{path}.mu", recipe.mu)
+    if not (isfinite(recipe.lam) and recipe.lam >= 0):
+        yield f"{path}.lam", f"{recipe.lam} is not zero or positive"
+
+
+def _positive(path: str, value: float) -> Iterator[Problem]:
+    if not (isfinite(value) and value > 0):
+        yield path, f"{value} is not a positive number"
+
+
+def _colour(path: str, colour: str) -> Iterator[Problem]:
+    if not COLOUR.fullmatch(colour):
+        yield path, f'{colour!r} is not a colour, which is "#rrggbb", "#rrggbbaa" or empty'
+
+
+def _text(path: str, text: str) -> Iterator[Problem]:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        yield path, "the text holds half of a character"

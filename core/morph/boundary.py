@@ -1,0 +1,209 @@
+"""Boundary correspondence: marks split both outlines into arcs, arc length spreads the rest.
+
+Inside an arc a vertex keeps its fraction of the arc's length (Song 2013, fig. 5). The vertices of
+both outlines are used, so that both ends are exactly what was drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.errors import MarkError, Where
+from core.geometry.polyline import arc_lengths, points_at
+from core.model.outline import Array
+
+SNAP = 0.35
+"""Source and target vertices closer than this fraction of the spacing become one."""
+COINCIDENT = 1e-7
+"""Marks closer than this fraction of the perimeter lie on top of each other."""
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryPair:
+    """Corresponding boundary vertices of one ring."""
+
+    source: Array
+    """(k, 2)"""
+    target: Array
+    """(k, 2)"""
+
+
+@dataclass(frozen=True, eq=False)
+class MatchedRing:
+    """A ring of both outlines, and where the marks lie on it."""
+
+    source: Array
+    """(n, 2) clean ring."""
+    target: Array
+    """(k, 2) clean ring."""
+    source_marks: Array
+    """(j,) arc lengths."""
+    target_marks: Array
+    """(j,) arc lengths, in the same order."""
+    marks: tuple[int, ...]
+    """(j,) indices of the marks, to name them in errors."""
+
+
+def correspond(
+    ring: MatchedRing, spacing: tuple[float, float], labels: Sequence[str]
+) -> BoundaryPair:
+    """Return the common vertices of one ring, no further apart than ``spacing`` (source, target).
+
+    Needs at least one mark. ``labels`` name all marks. Raises ``MarkError`` when marks coincide or
+    their cyclic order differs on the two outlines.
+    """
+    order = np.argsort(ring.source_marks, kind="stable")
+    _check_apart(ring, labels)
+    _check_order(ring, order, labels)
+    anchors = np.column_stack([ring.source_marks[order], ring.target_marks[order]])
+    anchors -= anchors[0]  # both rings now start at the first mark
+    source, target = (
+        _Curve(points, marks[order[0]])
+        for points, marks in ((ring.source, ring.source_marks), (ring.target, ring.target_marks))
+    )
+    anchors = np.mod(anchors, [source.perimeter, target.perimeter])
+    anchors = _snapped(anchors, source, target, max(spacing))
+    pairs = _densified(_union(anchors, source, target), source, target, spacing)
+    return BoundaryPair(source.points_at(pairs[:, 0]), target.points_at(pairs[:, 1]))
+
+
+class _Curve:
+    """A closed polyline whose arc length starts at a given place."""
+
+    def __init__(self, points: Array, start: float) -> None:
+        self._points, self._lengths = points, arc_lengths(points)
+        self._start = start
+        self.perimeter = float(self._lengths[-1])
+        from_start = np.mod(self._lengths[:-1] - start, self.perimeter)
+        from_start[self.perimeter - from_start < 1e-12 * self.perimeter] = 0.0
+        order = np.argsort(from_start, kind="stable")
+        self.vertices = from_start[order]
+        """(n,) increasing arc lengths of the vertices."""
+        self._corners = points[order]
+
+    def points_at(self, at: Array) -> Array:
+        """Return the points (k, 2) at arc lengths (k,); a vertex's own gives it to the last bit."""
+        points = points_at(self._points, self._lengths, at + self._start)
+        nearest = np.clip(np.searchsorted(self.vertices, at), 0, len(self.vertices) - 1)
+        for i in (nearest, nearest - 1):
+            same = np.abs(self.vertices[i] - at) <= 1e-12 * self.perimeter
+            points[same] = self._corners[i[same]]
+        return points
+
+
+def _check_apart(ring: MatchedRing, labels: Sequence[str]) -> None:
+    for side, points, at in (
+        ("source", ring.source, ring.source_marks),
+        ("target", ring.target, ring.target_marks),
+    ):
+        lengths = arc_lengths(points)
+        order = np.argsort(at)
+        gap = np.diff(np.append(at[order], at[order[0]] + lengths[-1]))
+        close = np.flatnonzero(gap < COINCIDENT * lengths[-1])
+        if len(at) > 1 and len(close):
+            i, j = order[close[0]], order[(close[0] + 1) % len(order)]
+            pair = sorted((ring.marks[i], ring.marks[j]))
+            place = points_at(points, lengths, at[[i]])[0]
+            raise MarkError(
+                f"Marks {labels[pair[0]]} and {labels[pair[1]]} lie on the same point"
+                f" of the {side}.",
+                where=Where(side, point=(float(place[0]), float(place[1])), marks=tuple(pair)),
+                hint="Drag one of them away, or remove it.",
+            )
+
+
+def _check_order(ring: MatchedRing, order: Array, labels: Sequence[str]) -> None:
+    """Find a mark whose removal helps, to name it rather than all of them."""
+    along = ring.target_marks[order]
+    if _descents(along) <= 1:
+        return
+    for i in range(len(order)):
+        if _descents(np.delete(along, i)) <= 1:
+            wrong: tuple[int, ...] = (ring.marks[order[i]],)
+            break
+    else:
+        wrong = ring.marks
+    names = ", ".join(labels[i] for i in sorted(wrong))
+    here, there = (
+        " ".join(labels[ring.marks[i]] for i in np.argsort(at))
+        for at in (ring.source_marks, ring.target_marks)
+    )
+    place = points_at(ring.target, arc_lengths(ring.target), along)[
+        [ring.marks[i] for i in order].index(wrong[0])
+    ]
+    raise MarkError(
+        f"Marks run in another order around the target ({there}) than around the source ({here}).",
+        where=Where("target", point=(float(place[0]), float(place[1])), marks=tuple(sorted(wrong))),
+        hint=f"Move or remove mark{'s' if len(wrong) > 1 else ''} {names}.",
+    )
+
+
+def _descents(values: Array) -> int:
+    """Count how often a cyclic sequence falls: once if it is in cyclic order."""
+    return int(np.sum(np.roll(values, -1) <= values)) if len(values) > 1 else 0
+
+
+def _closed(anchors: Array, source: _Curve, target: _Curve) -> Array:
+    return np.vstack([anchors, [[source.perimeter, target.perimeter]]])
+
+
+def _snapped(anchors: Array, source: _Curve, target: _Curve, spacing: float) -> Array:
+    """Add mutually nearest vertices of both outlines as anchors (k, 2), so no slivers arise."""
+    ends = _closed(anchors, source, target)
+    a = source.vertices
+    b = np.interp(target.vertices, ends[:, 1], ends[:, 0])  # measured along the source
+    scale = source.perimeter / target.perimeter
+    reach = SNAP * min(spacing, spacing * scale, *(_median_gap(v) for v in (a, b)))
+    near_b, near_a = _nearest(a, b), _nearest(b, a)
+    i = np.flatnonzero(near_a[near_b] == np.arange(len(a)))
+    j = near_b[i]
+    close = np.abs(a[i] - b[j]) <= reach
+    found = np.column_stack([a[i], target.vertices[j]])[close]
+    # both must lie strictly inside the same arc, or the order at a mark would be torn
+    arc = [np.searchsorted(ends[:, k], found[:, k] - 1e-12, side="right") for k in (0, 1)]
+    beyond = [np.searchsorted(ends[:, k], found[:, k] + 1e-12, side="right") for k in (0, 1)]
+    inside = (arc[0] == arc[1]) & (beyond[0] == arc[0]) & (beyond[1] == arc[1])
+    joined = np.vstack([anchors, found[inside]])
+    return joined[np.argsort(joined[:, 0], kind="stable")]
+
+
+def _median_gap(values: Array) -> float:
+    return float(np.median(np.diff(values))) if len(values) > 1 else np.inf
+
+
+def _nearest(a: Array, b: Array) -> np.ndarray:
+    """Return, for each of sorted a, the index of the nearest of sorted b."""
+    right = np.clip(np.searchsorted(b, a), 0, len(b) - 1)
+    left = np.maximum(right - 1, 0)
+    return np.where(np.abs(b[left] - a) <= np.abs(b[right] - a), left, right)
+
+
+def _union(anchors: Array, source: _Curve, target: _Curve) -> Array:
+    """Return (k, 2) arc lengths of every vertex of both outlines, on both outlines."""
+    ends = _closed(anchors, source, target)
+    from_source = np.column_stack(
+        [source.vertices, np.interp(source.vertices, ends[:, 0], ends[:, 1])]
+    )
+    from_target = np.column_stack(
+        [np.interp(target.vertices, ends[:, 1], ends[:, 0]), target.vertices]
+    )
+    merged = np.vstack([anchors, from_source, from_target])
+    merged = merged[np.lexsort((merged[:, 1], merged[:, 0]))]
+    size = np.array([source.perimeter, target.perimeter])
+    step = np.diff(merged, axis=0) / size
+    keep = np.append(True, (step > 1e-9).all(axis=1))
+    # what is left out is a repeat of its neighbour, unless it is a drawn vertex of the other side
+    return merged[keep]
+
+
+def _densified(pairs: Array, source: _Curve, target: _Curve, spacing: tuple[float, float]) -> Array:
+    """Split steps that are longer than the spacing on either outline into equal parts."""
+    ends = _closed(pairs, source, target)
+    step = np.diff(ends, axis=0)
+    parts = np.maximum(np.ceil((step / np.array(spacing) - 1e-9).max(axis=1)), 1).astype(int)
+    start = np.repeat(np.arange(len(pairs)), parts)
+    within = np.arange(len(start)) - np.repeat(np.cumsum(parts) - parts, parts)
+    return ends[start] + (within / parts[start])[:, None] * step[start]

@@ -1,0 +1,66 @@
+"""The library's front door: plain arrays and vertex indices in, a morph out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core.errors import MarkError, OutlineError, Where
+from core.model import Outline, Recipe, RingPoint
+from core.morph.morph import Morph
+from core.morph.pipeline import solve_outlines
+from core.progress import Progress, silent
+
+MarkIndex = int | tuple[int, int]
+"""A vertex of the exterior, or (ring, vertex)."""
+
+
+def solve(
+    source: Outline | ArrayLike,
+    target: Outline | ArrayLike,
+    marks: Sequence[tuple[MarkIndex, MarkIndex]] | None = None,
+    *,
+    recipe: Recipe | None = None,
+    progress: Progress = silent,
+) -> Morph:
+    """Map one outline onto another.
+
+    ``source`` and ``target`` are (n, 2) and (k, 2) points of closed polygons, the first not
+    repeated, or an ``Outline`` with holes or curves. Either orientation will do. ``marks`` pair
+    vertex indices of the source with those of the target; ``(ring, vertex)`` reaches holes. Without
+    marks the best cyclic shift is used. ``progress(fraction, stage)`` may raise ``Cancelled``.
+
+    Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint.
+    """
+    ends = _outline(source, "source"), _outline(target, "target")
+    pairs = [
+        (_place(ends[0], a, "source", i), _place(ends[1], b, "target", i))
+        for i, (a, b) in enumerate(marks or ())
+    ]
+    return solve_outlines(*ends, pairs, recipe=recipe, progress=progress)
+
+
+def _outline(given: Outline | ArrayLike, side: str) -> Outline:
+    if isinstance(given, Outline):
+        return given
+    try:
+        return Outline.polygon(np.asarray(given, dtype=float))
+    except (TypeError, ValueError) as problem:
+        raise OutlineError(
+            f"The {side} is not an (n, 2) array of numbers: {problem}.",
+            where=Where(side),
+            hint="Give the points of one closed polygon, or an Outline for holes.",
+        ) from None
+
+
+def _place(outline: Outline, mark: MarkIndex, side: str, index: int) -> RingPoint:
+    ring, vertex = mark if isinstance(mark, tuple) else (0, mark)
+    if not 0 <= ring < len(outline.rings) or not 0 <= vertex < len(outline.rings[ring]):
+        raise MarkError(
+            f"Mark {index} names vertex {vertex} of ring {ring} of the {side}, which is not there.",
+            where=Where(side, marks=(index,)),
+            hint="Count rings and vertices from 0.",
+        )
+    return RingPoint(int(ring), float(vertex))

@@ -1,0 +1,42 @@
+"""A solved morph: the mesh at both ends, and every frame between."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+from core.morph.inbetween import Interpolate
+from core.morph.report import Report
+
+
+@dataclass(frozen=True, eq=False)
+class Morph:
+    """Immutable; ``at`` may be called from any thread."""
+
+    triangles: Indices
+    """(m, 3) vertex indices, positively oriented at rest."""
+    rest: Array
+    """(n, 2) vertices where the source was drawn; the boundary comes first."""
+    target: Array
+    """(n, 2) the same vertices where the target was drawn."""
+    rings: tuple[Indices, ...]
+    """The boundary as vertex indices, exterior first."""
+    report: Report
+    inbetween: Interpolate
+    """Frames in the solver's coordinates."""
+    origin: Array
+    """(2,) where those coordinates have their zero."""
+    unit: float
+    """Their length unit."""
+
+    def at(self, s: float) -> Array:
+        """Return positions (n, 2) at progress s: the source at 0, the target at 1, both exactly.
+
+        Outside [0, 1] the motion is carried on, for easings that overshoot.
+        """
+        if s == 0:
+            return self.rest
+        if s == 1:
+            return self.target
+        return self.origin + self.unit * self.inbetween(s)

@@ -1,0 +1,47 @@
+"""How good a map or a frame is: folds, distortion, angles, a boundary that crosses itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from shapely import Polygon
+
+from core.fem.elements import Elements, determinants
+from core.fem.energies import SymmetricDirichlet
+from core.geometry.rotation import signed_svd
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+
+
+def doubled_areas(points: Array, triangles: Indices) -> Array:
+    """Return (m,) twice the signed areas of triangles (m, 3)."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    u, v = b - a, c - a
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def folds(points: Array, triangles: Indices) -> Indices:
+    """Return the indices of triangles without positive area."""
+    return np.flatnonzero(doubled_areas(points, triangles) <= 0)
+
+
+def distortion(elements: Elements, x: Array) -> Array:
+    """Return (m,) symmetric Dirichlet density of each triangle: 1 for an isometry, ∞ if folded."""
+    F = elements.deformation_gradients(x)
+    _, s1, s2, _ = signed_svd(F)
+    return np.where(determinants(F) > 0, SymmetricDirichlet().value(s1, s2), np.inf)
+
+
+def smallest_angle(points: Array, triangles: Indices) -> float:
+    """Return the smallest angle of any triangle, in radians."""
+    corners = points[triangles]
+    after = np.roll(corners, -1, axis=1) - corners
+    before = np.roll(corners, 1, axis=1) - corners
+    cross = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
+    return float(np.arctan2(np.abs(cross), np.einsum("maj,maj->ma", after, before)).min())
+
+
+def crosses_itself(rings: Sequence[Array]) -> bool:
+    """Whether closed polylines (k, 2), exterior first, cross themselves or each other."""
+    return not Polygon(rings[0], rings[1:]).is_valid

@@ -1,0 +1,56 @@
+"""Unfold a map with a fixed boundary (Garanzha et al. 2021), one Newton step per ε."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from core.fem.elements import Elements, determinants
+from core.fem.energies import FoldoverFree
+from core.fem.energies.foldover_free import regularised
+from core.fem.newton import FreeVertices, line_search, newton_step
+from core.model.outline import Array
+
+VALID = 1e-10
+"""Smallest J that counts as unfolded, at unit area."""
+PATIENCE = 40
+"""Steps without 1 % less energy, or one fold less, after which it gives up."""
+MAX_STEPS = 300
+
+Observe = Callable[[float, Array], None]
+"""Called after each step with the energy and the positions (n, 2)."""
+
+
+def untangle(vertices: FreeVertices, x: Array, observe: Observe) -> Array:
+    """Move the free vertices of x (n, 2) until J > 0 everywhere, or no more can be gained.
+
+    Shapes are expected at unit area.
+    """
+    elements = vertices.elements
+    lowest = _lowest(elements, x)
+    epsilon = 0.2 * abs(lowest)
+    best, idle = np.inf, 0
+    for _ in range(MAX_STEPS):
+        if lowest > VALID or idle > PATIENCE:
+            break
+        density = FoldoverFree(max(epsilon, 1e-10))
+        step = newton_step(vertices, density, x)
+        x, after = line_search(elements, density, x, step)
+        observe(after, x)
+        lowest = _lowest(elements, x)
+        epsilon = _next_epsilon(epsilon, lowest, step.energy, after)
+        idle = 0 if after < 0.99 * best else idle + 1
+        best = min(best, after)
+    return x
+
+
+def _next_epsilon(epsilon: float, lowest: float, before: float, after: float) -> float:
+    """Lower ε so far that the energy is sure to fall further (their eq. 8)."""
+    sigma = max(1 - after / before, 0.1)
+    mu = (1 - sigma) * float(regularised(np.array(lowest), epsilon))
+    return 2 * np.sqrt(mu * (mu - lowest)) if lowest < mu else 1e-10
+
+
+def _lowest(elements: Elements, x: Array) -> float:
+    return float(determinants(elements.deformation_gradients(x)).min())
