@@ -13,6 +13,7 @@ import numpy as np
 
 from core.errors import MarkError, Where
 from core.geometry.polyline import arc_lengths, points_at
+from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
 SNAP = 0.35
@@ -115,7 +116,7 @@ def _check_apart(ring: MatchedRing, labels: Sequence[str]) -> None:
             )
 
 
-def _check_order(ring: MatchedRing, order: Array, labels: Sequence[str]) -> None:
+def _check_order(ring: MatchedRing, order: Indices, labels: Sequence[str]) -> None:
     """Find a mark whose removal helps, to name it rather than all of them."""
     along = ring.target_marks[order]
     if _descents(along) <= 1:
@@ -174,7 +175,7 @@ def _median_gap(values: Array) -> float:
     return float(np.median(np.diff(values))) if len(values) > 1 else np.inf
 
 
-def _nearest(a: Array, b: Array) -> np.ndarray:
+def _nearest(a: Array, b: Array) -> Indices:
     """Return, for each of sorted a, the index of the nearest of sorted b."""
     right = np.clip(np.searchsorted(b, a), 0, len(b) - 1)
     left = np.maximum(right - 1, 0)

@@ -133,16 +133,15 @@ def _positions(
                 hint="Move it to the matching ring.",
             )
         lengths = []
-        for outline, place_, end, side in (
-            (source, a, ends[0], "source"),
-            (target, b, ends[1], "target"),
-        ):
+        sides = (("source", source, a, ends[0]), ("target", target, b, ends[1]))
+        for side, outline, place_, end in sides:
             point = tracks(outline)[place_.ring].point_at(place_.at)
             ring = end.rings[place_.ring]
             length, distance = nearest_length(ring, arc_lengths(ring), point)
             if distance > OFF_OUTLINE * end.diagonal:
                 raise MarkError(
-                    f"Mark {_labels(index + 1)[index]} lies on a part of the {side} that was cut off.",
+                    f"Mark {_labels(index + 1)[index]} lies on a part of the {side}"
+                    " that had to be cut off.",
                     where=Where(side, point=(float(point[0]), float(point[1])), marks=(index,)),
                     hint="Move the mark, or mend the crossing edges there.",
                 )

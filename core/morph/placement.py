@@ -67,7 +67,7 @@ def place(
 
 
 def harmonic(elements: Elements, boundary: Array) -> Array:
-    """Return positions (n, 2) that minimise Σ A ‖F‖² for boundary positions (b, 2), which come first."""
+    """Return the positions (n, 2) that minimise Σ A ‖F‖², the first b being given as boundary."""
     b = len(boundary)
     matrix = elements.laplacian.tocsc()
     inner = matrix[b:, b:]

@@ -27,7 +27,7 @@ class Report:
     folds_target: tuple[int, ...]
     """Triangles with J ≤ 0 in the target."""
     distortion_mean: float
-    """Area-weighted mean of (‖F‖² + ‖F⁻¹‖²) / 4 at unit areas: 1 is an isometry. Infinite if folded."""
+    """Area-weighted mean of (‖F‖² + ‖F⁻¹‖²) / 4 at unit areas: 1 is an isometry, ∞ a fold."""
     distortion_worst: float
     """The largest of any triangle."""
     smallest_angle: float

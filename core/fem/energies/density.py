@@ -22,8 +22,10 @@ class Derivatives:
 class Density(Protocol):
     """An isotropic energy per rest area: ψ(σ₁, σ₂), symmetric, of signed singular values (m,)."""
 
-    barrier: bool
-    """Whether ψ is infinite at J = 0, so that a step must stop short of it."""
+    @property
+    def barrier(self) -> bool:
+        """Whether ψ is infinite at J = 0, so that a step must stop short of it."""
+        ...
 
     def value(self, s1: Array, s2: Array) -> Array:
         """Return ψ (m,)."""
