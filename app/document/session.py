@@ -19,6 +19,7 @@ class Session(QObject):
     An edit is ``session.apply(text, edit, *args)`` with a pure function of ``core.model.edits``.
     A drag is ``begin(text)``, any number of ``apply`` calls, then ``commit()`` or ``abandon()``:
     every ``apply`` in between starts from the document at ``begin``; the whole is one undo step.
+    Where no end can be told, as when a number is typed, ``amend`` joins the steps of one gesture.
     """
 
     changed = Signal(object)
@@ -58,9 +59,21 @@ class Session(QObject):
 
         ``text`` names the step in the Edit menu. A refused edit emits ``failed``.
         """
+        return self._apply(None, text, lambda document: edit(document, *args, **kwargs))
+
+    def amend(
+        self, gesture: object, text: str, edit: Callable[..., Document], *args: Any, **kwargs: Any
+    ) -> bool:
+        """Do as ``apply``, in one undo step with the last one if that had the same gesture.
+
+        Nothing stays open in between, so other edits, undo and saving may come at any time.
+        """
+        return self._apply(gesture, text, lambda document: edit(document, *args, **kwargs))
+
+    def _apply(self, gesture: object, text: str, edit: Callable[[Document], Document]) -> bool:
         base = self._drag[1] if self._drag else self._document
         try:
-            after = edit(base, *args, **kwargs)
+            after = edit(base)
         except MorphError as error:
             self.failed.emit(error)
             return False
@@ -69,7 +82,7 @@ class Session(QObject):
         if self._drag:
             self._show(after)
         elif after is not base:
-            self.undo_stack.push(_Swap(self, text, base, after))
+            self.undo_stack.push(_Swap(self, text, base, after, gesture))
         return True
 
     def begin(self, text: str) -> None:
@@ -136,9 +149,29 @@ class Session(QObject):
 class _Swap(QUndoCommand):
     """One step: the documents before and after it, so that no inverse can be wrong."""
 
-    def __init__(self, session: Session, text: str, before: Document, after: Document) -> None:
+    def __init__(
+        self,
+        session: Session,
+        text: str,
+        before: Document,
+        after: Document,
+        gesture: object = None,
+    ) -> None:
         super().__init__(text)
         self._session, self._before, self._after = session, before, after
+        self._gesture = gesture
+
+    def id(self) -> int:
+        """Return which commands may merge; -1 is none."""
+        return -1 if self._gesture is None else 1
+
+    def mergeWith(self, other: QUndoCommand) -> bool:
+        """Take in the next step of the same gesture; together they may change nothing."""
+        if not isinstance(other, _Swap) or other._gesture != self._gesture:
+            return False
+        self._after = other._after
+        self.setObsolete(self._before == self._after)
+        return True
 
     def undo(self) -> None:
         self._session._show(self._before)
