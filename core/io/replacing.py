@@ -36,6 +36,37 @@ def replacing(path: Path | str) -> Iterator[Path]:
             draft.unlink(missing_ok=True)
 
 
+@contextmanager
+def staging(folder: Path | str) -> Iterator[Path]:
+    """Yield a hidden folder inside ``folder``; its files move there if all goes well.
+
+    Otherwise nothing is left of them: files of the same names stay as they were, and a folder that
+    was made for them is gone again. FileError when the system refuses.
+    """
+    place = Path(folder)
+    missing = [path for path in (place, *place.parents) if not path.exists()]
+    draft = place / f".betwixt-{secrets.token_hex(6)}"
+    try:
+        draft.mkdir(parents=True)
+        yield draft
+        files = sorted(draft.iterdir())
+        for file in files:
+            if (place / file.name).is_dir():
+                raise FileError(
+                    "There is a folder of the same name.", where=Where(path=str(place / file.name))
+                )
+        for file in files:
+            os.replace(file, place / file.name)
+        missing = []
+    except OSError as error:
+        raise unwritable(place, error) from error
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+        for path in missing:
+            with suppress(OSError):
+                path.rmdir()
+
+
 def unwritable(path: Path | str, error: OSError) -> FileError:
     """Say why the system refused to write a file or folder."""
     return FileError(

@@ -1,0 +1,14 @@
+"""Frames to files: one module a format, behind this registry.
+
+PNG needs Qt to paint; ``app.render.formats`` adds it.
+"""
+
+from core.io.exporters.film import Film, Size, Track
+from core.io.exporters.sequence import SequenceFormat
+from core.io.exporters.svg import SVG
+from core.io.exporters.vertices import VERTICES, VertexFormat
+
+ExportFormat = SequenceFormat | VertexFormat
+FORMATS: tuple[ExportFormat, ...] = (SVG, VERTICES)
+
+__all__ = ["FORMATS", "SVG", "VERTICES", "ExportFormat", "Film", "Size", "Track"]

@@ -1,0 +1,53 @@
+"""Every span that an export needs, solved in one go."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from core.errors import Cancelled, MorphError
+from core.model import Document, Layer
+from core.morph.scene import Span, solve_span, span_of
+from core.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from core.morph.morph import Morph
+
+
+def solve_all(
+    document: Document,
+    frames: tuple[int, int] | None = None,
+    known: Mapping[Span, Morph] | None = None,
+    progress: Progress = silent,
+) -> dict[Span, Morph]:
+    """Solve the spans of the visible layers that show between two frames, or all of them.
+
+    ``known`` are exact solutions that need no repeating. An error names the layer and the frames.
+    """
+    solved = dict(known or {})
+    needed = {
+        span_of(layer, index): (layer, index)
+        for layer in document.layers
+        if layer.visible
+        for index in _spans(layer, frames or document.frames)
+    }
+    missing = {span: place for span, place in needed.items() if span not in solved}
+    for done, (span, (layer, index)) in enumerate(missing.items()):
+
+        def report(fraction: float, stage: str, done: int = done) -> None:
+            progress((done + fraction) / len(missing), stage)
+
+        try:
+            solved[span] = solve_span(span, report)
+        except Cancelled:
+            raise
+        except MorphError as error:
+            first, last = (key.frame for key in layer.keyframes[index : index + 2])
+            what = f"Layer “{layer.name}”, frames {first} to {last}: {error.what}"
+            raise type(error)(what, where=error.where, hint=error.hint) from error
+    return {span: solved[span] for span in needed}
+
+
+def _spans(layer: Layer, frames: tuple[int, int]) -> range:
+    first, last = (layer.span_at(frame)[0] for frame in frames)
+    return range(first, min(last + 1, layer.spans))

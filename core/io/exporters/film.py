@@ -1,0 +1,43 @@
+"""What an export format is given."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from core.model.outline import Array
+from core.model.picture import Picture
+
+Size = tuple[int, int]
+"""Width and height in pixels."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """One moving mesh: a layer from one keyframe to the next."""
+
+    layer: str
+    """The layer's name."""
+    positions: Array
+    """(frames, n, 2)"""
+    triangles: Sequence[Sequence[int]]
+    """(m, 3) vertex indices."""
+    rings: Sequence[Sequence[int]]
+    """The boundary as vertex indices, exterior first."""
+    frames: Sequence[int]
+    """(frames,) frame numbers."""
+    times: Sequence[float]
+    """(frames,) seconds since frame 1."""
+
+
+class Film(Protocol):
+    """Frames to export; they are computed when they are asked for."""
+
+    @property
+    def pictures(self) -> Sequence[Picture]:
+        """Every frame as it is seen."""
+
+    @property
+    def tracks(self) -> Sequence[Track]:
+        """The meshes that make the frames."""

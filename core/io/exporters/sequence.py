@@ -1,0 +1,65 @@
+"""Picture sequences: one file a frame, all of them or none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from core.errors import FileError
+from core.io.exporters.film import Film, Size
+from core.io.replacing import staging
+from core.model.picture import Picture
+from core.progress import Progress, silent
+
+Write = Callable[[Picture, Path, Size | None], None]
+"""Writes one picture, fitted into a size, or at the document's own."""
+
+
+def export_sequence(
+    pictures: Sequence[Picture],
+    folder: Path,
+    stem: str,
+    suffix: str,
+    write: Callable[[Picture, Path], None],
+    progress: Progress = silent,
+) -> list[Path]:
+    """Write ``stem-0001.suffix`` and so on, numbered by frame; return the paths.
+
+    They appear in the folder together, when the last is written; after an error, or when
+    ``progress`` raises, there is none, and files of the same names are as they were.
+    """
+    if not pictures:
+        raise FileError("There is no frame to export.")
+    names = []
+    with staging(folder) as draft:
+        for i, picture in enumerate(pictures):
+            progress(i / len(pictures), f"Frame {i + 1} of {len(pictures)}")
+            name = f"{stem}-{picture.frame:04.0f}{suffix}"
+            write(picture, draft / name)
+            names.append(name)
+        progress(1.0, "Done")
+    return [folder / name for name in names]
+
+
+@dataclass(frozen=True)
+class SequenceFormat:
+    """A format that holds one picture a file."""
+
+    key: str
+    """Its name on the command line."""
+    name: str
+    suffix: str
+    write: Write
+    paints = True
+    """Size and background mean something to it."""
+
+    def export(
+        self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress
+    ) -> list[Path]:
+        """Write every picture of a film; see ``export_sequence``."""
+
+        def write(picture: Picture, path: Path) -> None:
+            self.write(picture, path, size)
+
+        return export_sequence(film.pictures, folder, stem, self.suffix, write, progress)

@@ -1,0 +1,82 @@
+"""Raw vertex frames for other tools, as NumPy archives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core.errors import FileError
+from core.io.exporters.film import Film, Size
+from core.io.replacing import replacing, staging
+from core.progress import Progress
+
+
+def write_vertices(
+    path: Path,
+    positions: ArrayLike,
+    triangles: ArrayLike,
+    rings: Sequence[ArrayLike],
+    times: ArrayLike,
+    **more: ArrayLike,
+) -> None:
+    """Write one moving mesh as an ``.npz`` archive.
+
+    It holds ``positions`` (frames, n, 2), ``triangles`` (m, 3), ``rings`` (k,) the boundary's
+    vertex indices, ring after ring, ``ring_sizes`` (r,) their lengths, exterior first, and
+    ``times`` (frames,) in seconds; ``more`` are further arrays.
+    """
+    boundary = [np.asarray(ring, dtype=np.int64) for ring in rings]
+    arrays = {
+        "positions": np.asarray(positions, dtype=float),
+        "triangles": np.asarray(triangles, dtype=np.int64).reshape(-1, 3),
+        "rings": np.concatenate(boundary),
+        "ring_sizes": np.array([len(ring) for ring in boundary]),
+        "times": np.asarray(times, dtype=float),
+        **{name: np.asarray(value) for name, value in more.items()},
+    }
+    with replacing(path) as draft, draft.open("wb") as file:
+        np.savez_compressed(file, allow_pickle=False, **arrays)
+
+
+class VertexFormat:
+    """One archive for each layer and span; see ``write_vertices``."""
+
+    key = "npz"
+    """Its name on the command line."""
+    name = "Vertex frames (NumPy)"
+    suffix = ".npz"
+    paints = False
+    """Size and background mean nothing to it."""
+
+    def export(
+        self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress
+    ) -> list[Path]:
+        """Write every track of a film; all files or none. Return the paths."""
+        tracks = film.tracks
+        if not tracks:
+            raise FileError("There is no mesh to export.")
+        names = []
+        with staging(folder) as draft:
+            for i, track in enumerate(tracks):
+                progress(i / len(tracks), f"Mesh {i + 1} of {len(tracks)}")
+                name = (
+                    f"{stem}{self.suffix}" if len(tracks) == 1 else f"{stem}-{i + 1}{self.suffix}"
+                )
+                write_vertices(
+                    draft / name,
+                    track.positions,
+                    track.triangles,
+                    track.rings,
+                    track.times,
+                    frames=track.frames,
+                    layer=track.layer,
+                )
+                names.append(name)
+            progress(1.0, "Done")
+        return [folder / name for name in names]
+
+
+VERTICES = VertexFormat()
