@@ -18,6 +18,8 @@ from core.model.outline import Array
 
 REPEAT = 1e-9
 """Vertices closer than this, as a fraction of the diagonal, are one vertex."""
+FLAT = 1e-9
+"""An outline whose hull has less area than this fraction of its squared diagonal is a line."""
 MAX_LOSS = 0.02
 """Fraction of the area that a repair may take away or add."""
 
@@ -90,7 +92,7 @@ def _distinct(ring: Array, side: str, index: int, repairs: list[str]) -> Array:
         )
     if len(kept) < len(ring):
         repairs.append(f"{name}: {len(ring) - len(kept)} repeated points dropped")
-    if abs(signed_area(kept)) < 1e-9 * size**2:
+    if Polygon(kept).convex_hull.area < FLAT * size**2:
         raise OutlineError(
             f"The {name} encloses no area.",
             where=Where(side, index, point=_point(kept)),
@@ -103,16 +105,15 @@ def _repaired(polygon: Polygon, rings: int, side: str, repairs: list[str]) -> Po
     """Cut off small loops and spikes; refuse when that would change the shape."""
     problem = explain_validity(polygon)
     place = _place(problem)
-    drawn = abs(signed_area(_open(polygon.exterior)))
     valid = make_valid(polygon, method="structure")
     parts = list(valid.geoms) if isinstance(valid, MultiPolygon) else [valid]
     parts = [part for part in parts if isinstance(part, Polygon)]
     largest = max(parts, key=lambda part: part.area, default=Polygon())
     # touching itself at a point is mended by shaving a hair off
-    shaved = largest.buffer(-1e-7 * np.sqrt(drawn), join_style="mitre")
+    shaved = largest.buffer(-1e-7 * np.sqrt(largest.area), join_style="mitre")
     if isinstance(shaved, Polygon) and not LinearRing(largest.exterior).is_simple:
         largest = shaved
-    lost = abs(_holes_filled(polygon) - largest.area) / drawn
+    lost = abs(_drawn_area(polygon) - largest.area) / max(valid.area, _drawn_area(polygon))
     if largest.is_empty or len(largest.interiors) != rings - 1 or lost > MAX_LOSS:
         what = "crosses itself" if rings == 1 else "has rings that cross or touch"
         raise OutlineError(
@@ -127,8 +128,8 @@ def _repaired(polygon: Polygon, rings: int, side: str, repairs: list[str]) -> Po
     return largest
 
 
-def _holes_filled(polygon: Polygon) -> float:
-    """Area as drawn: by the signed area of the rings, whatever their faults."""
+def _drawn_area(polygon: Polygon) -> float:
+    """Area by the rings as drawn, whatever their faults: loops that run backwards count against."""
     holes = sum(abs(signed_area(_open(ring))) for ring in polygon.interiors)
     return abs(signed_area(_open(polygon.exterior))) - holes
 

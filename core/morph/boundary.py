@@ -57,10 +57,11 @@ def correspond(
     their cyclic order differs on the two outlines.
     """
     order = np.argsort(ring.source_marks, kind="stable")
+    order = np.roll(order, -int(np.argmin(order)))  # from the first mark, wherever the list starts
     _check_apart(ring, labels)
     _check_order(ring, order, labels)
     anchors = np.column_stack([ring.source_marks[order], ring.target_marks[order]])
-    anchors -= anchors[0]  # both rings now start at the first mark
+    anchors -= anchors[0]
     source, target = (
         _Curve(points, marks[order[0]])
         for points, marks in ((ring.source, ring.source_marks), (ring.target, ring.target_marks))
@@ -117,11 +118,11 @@ def _check_apart(ring: MatchedRing, labels: Sequence[str]) -> None:
 
 
 def _check_order(ring: MatchedRing, order: Indices, labels: Sequence[str]) -> None:
-    """Find a mark whose removal helps, to name it rather than all of them."""
+    """Find a mark whose removal helps, the newest first, to name it rather than all of them."""
     along = ring.target_marks[order]
     if _descents(along) <= 1:
         return
-    for i in range(len(order)):
+    for i in np.argsort(order)[::-1]:
         if _descents(np.delete(along, i)) <= 1:
             wrong: tuple[int, ...] = (ring.marks[order[i]],)
             break

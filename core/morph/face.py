@@ -13,13 +13,15 @@ from core.morph.morph import Morph
 from core.morph.pipeline import solve_outlines
 from core.progress import Progress, silent
 
+Shape = Outline | ArrayLike | Sequence[ArrayLike]
+"""An outline, the points of a polygon, or rings of points."""
 MarkIndex = int | tuple[int, int]
 """A vertex of the exterior, or (ring, vertex)."""
 
 
 def solve(
-    source: Outline | ArrayLike,
-    target: Outline | ArrayLike,
+    source: Shape,
+    target: Shape,
     marks: Sequence[tuple[MarkIndex, MarkIndex]] | None = None,
     *,
     recipe: Recipe | None = None,
@@ -28,9 +30,10 @@ def solve(
     """Map one outline onto another.
 
     ``source`` and ``target`` are (n, 2) and (k, 2) points of closed polygons, the first not
-    repeated, or an ``Outline`` with holes or curves. Either orientation will do. ``marks`` pair
-    vertex indices of the source with those of the target; ``(ring, vertex)`` reaches holes. Without
-    marks the best cyclic shift is used. ``progress(fraction, stage)`` may raise ``Cancelled``.
+    repeated; or sequences of such rings, the exterior first and then the holes; or an ``Outline``,
+    which may have curves. Either orientation will do. ``marks`` pair vertex indices of the source
+    with those of the target; ``(ring, vertex)`` reaches holes. Without marks the best cyclic shift
+    is used. ``progress(fraction, stage)`` may raise ``Cancelled``.
 
     Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint.
     """
@@ -42,12 +45,13 @@ def solve(
     return solve_outlines(*ends, pairs, recipe=recipe, progress=progress)
 
 
-def _outline(given: Outline | ArrayLike, side: str) -> Outline:
+def _outline(given: Shape, side: str) -> Outline:
     if isinstance(given, Outline):
         return given
     try:
-        return Outline.polygon(np.asarray(given, dtype=float))
-    except (TypeError, ValueError) as problem:
+        rings = given if np.ndim(given[0]) == 2 else [given]  # type: ignore[index]
+        return Outline.polygon(*(np.asarray(ring, dtype=float) for ring in rings))
+    except (IndexError, TypeError, ValueError) as problem:
         raise OutlineError(
             f"The {side} is not an (n, 2) array of numbers: {problem}.",
             where=Where(side),

@@ -60,7 +60,10 @@ def solve_outlines(
     frames = [(end.rings[0].mean(axis=0), float(np.sqrt(end.area))) for end in ends]
     (origin, unit), (target_origin, target_unit) = frames
     rings = [(pair.source - origin) / unit for pair in pairs]
-    coarse = triangulate(rings, 1 / (TRIANGLES_PER_BOUNDARY_VERTEX * recipe.density))
+    # rounded, so that equal shapes get equal meshes wherever they are drawn
+    coarse = triangulate(
+        [np.round(ring, 10) for ring in rings], 1 / (TRIANGLES_PER_BOUNDARY_VERTEX * recipe.density)
+    )
     mesh = split_chords(coarse)
     drawn = np.concatenate([pair.target for pair in pairs])
     clock.start("placement", 0.3)

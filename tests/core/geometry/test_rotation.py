@@ -1,0 +1,45 @@
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.geometry.rotation import polar, rotate, signed_svd, unwrap
+from tests.core.shapes import rotation
+
+matrices = st.lists(st.floats(-3, 3), min_size=4, max_size=4).map(
+    lambda entries: np.array(entries).reshape(1, 2, 2)
+)
+
+
+@given(matrices)
+def test_polar_factors_multiply_back_and_the_stretch_is_symmetric(F):
+    theta, S = polar(F)
+    assert np.allclose(rotate(theta, S), F)
+    assert np.allclose(S, S.transpose(0, 2, 1))
+
+
+@given(matrices)
+def test_signed_singular_values_multiply_back_and_carry_the_sign(F):
+    alpha, s1, s2, beta = signed_svd(F)
+    assert np.allclose(rotation(alpha[0]) @ np.diag([s1[0], s2[0]]) @ rotation(beta[0]).T, F)
+    assert s1[0] >= abs(s2[0])
+    assert np.isclose(s1[0] * s2[0], np.linalg.det(F[0]))
+
+
+def test_unwrapping_follows_a_spiral_through_several_turns():
+    truth = np.linspace(0, 9 * np.pi, 200)
+    wrapped = (truth + np.pi) % (2 * np.pi) - np.pi
+    neighbours = np.column_stack([np.arange(199), np.arange(1, 200)])
+    out = unwrap(wrapped, neighbours, np.ones(200))
+    assert np.allclose(np.diff(out), np.diff(truth))
+    assert -np.pi <= out.mean() < np.pi
+
+
+@given(st.permutations(range(30)))
+def test_unwrapping_does_not_depend_on_the_numbering(order):
+    truth = np.linspace(-1, 12, 30)
+    neighbours = np.column_stack([np.arange(29), np.arange(1, 30)])
+    plain = unwrap((truth + np.pi) % (2 * np.pi) - np.pi, neighbours, np.ones(30))
+    order = np.array(order)
+    place = np.argsort(order)
+    shuffled = unwrap((truth[order] + np.pi) % (2 * np.pi) - np.pi, place[neighbours], np.ones(30))
+    assert np.allclose(shuffled, plain[order])

@@ -1,0 +1,82 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.errors import MarkError
+from core.geometry.polyline import arc_lengths
+from core.morph.boundary import MatchedRing, correspond
+from tests.core.shapes import ellipse, letter_l, star_shaped
+
+LABELS = "abcdefgh"
+
+
+def matched(source, target, source_marks, target_marks):
+    return MatchedRing(
+        np.asarray(source),
+        np.asarray(target),
+        np.asarray(source_marks, dtype=float),
+        np.asarray(target_marks, dtype=float),
+        tuple(range(len(source_marks))),
+    )
+
+
+@given(star_shaped(), star_shaped(), st.integers(0, 4), st.floats(0.02, 1))
+def test_every_drawn_vertex_of_both_outlines_is_there_exactly(source, target, start, spacing):
+    ring = matched(source, target, [0.0], [arc_lengths(target)[start]])
+    pair = correspond(ring, (spacing, spacing), LABELS)
+    assert {tuple(p) for p in source} <= {tuple(p) for p in pair.source}
+    assert {tuple(p) for p in target} <= {tuple(p) for p in pair.target}
+
+
+@given(star_shaped(), star_shaped(), st.floats(0.02, 1))
+def test_both_boundaries_keep_their_length_and_no_step_is_longer_than_the_spacing(
+    source, target, spacing
+):
+    pair = correspond(matched(source, target, [0.0], [0.0]), (spacing, spacing), LABELS)
+    for drawn, points in ((source, pair.source), (target, pair.target)):
+        lengths = arc_lengths(points)
+        assert lengths[-1] == pytest.approx(arc_lengths(drawn)[-1])  # in order: no way back
+        assert np.diff(lengths).max() <= spacing * (1 + 1e-6)
+        assert np.diff(lengths).min() > 0
+
+
+def test_between_marks_a_vertex_keeps_its_fraction_of_the_arc():
+    square = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], dtype=float)
+    source = np.insert(square, 1, [1, 0], axis=0)  # a quarter of the way along the first side
+    # corners of the target, not snapped: its arc from a to b is 8 long
+    target = np.array([[0, 0], [8, 0], [8, 3], [0, 3]], dtype=float)
+    lengths = arc_lengths(source)
+    pair = correspond(
+        matched(source, target, lengths[[0, 2, 3, 4]], arc_lengths(target)[:4]), (9, 9), LABELS
+    )
+    index = int(np.flatnonzero((pair.source == [1, 0]).all(axis=1))[0])
+    assert np.allclose(pair.target[index], [2, 0])
+
+
+def test_marks_correspond_exactly():
+    source, target = ellipse(30), letter_l()
+    marks = arc_lengths(source)[[3, 11, 20]], arc_lengths(target)[[0, 2, 4]]
+    pair = correspond(matched(source, target, *marks), (0.3, 0.3), LABELS)
+    for i, j in ((3, 0), (11, 2), (20, 4)):
+        index = int(np.flatnonzero((pair.source == source[i]).all(axis=1))[0])
+        assert np.array_equal(pair.target[index], target[j])
+
+
+def test_marks_in_another_cyclic_order_are_refused_by_name():
+    source = ellipse(30)
+    with pytest.raises(MarkError, match="another order") as caught:
+        correspond(matched(source, source, [0, 1, 2, 3, 4], [0, 3.5, 2, 3, 4]), (1, 1), LABELS)
+    assert caught.value.where.marks == (1,)
+    assert "mark b" in caught.value.hint
+
+
+def test_a_whole_turn_of_the_order_is_no_disorder():
+    source = ellipse(30)
+    correspond(matched(source, source, [0, 1, 2, 3], [2, 3, 0.5, 1]), (1, 1), LABELS)
+
+
+def test_marks_on_top_of_each_other_are_refused_by_name():
+    source = ellipse(30)
+    with pytest.raises(MarkError, match="Marks a and c lie on the same point of the target"):
+        correspond(matched(source, source, [0, 1, 2], [0, 1, 0]), (1, 1), LABELS)

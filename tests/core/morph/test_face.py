@@ -1,0 +1,99 @@
+"""``core.solve`` as a script uses it."""
+
+import numpy as np
+import pytest
+
+import core
+from core.morph.quality import crosses_itself, doubled_areas
+from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, square_ring
+
+
+def test_the_documented_attributes_have_the_documented_shapes():
+    morph = core.solve(ellipse(), letter_l())
+    n, m = len(morph.rest), len(morph.triangles)
+    assert morph.triangles.shape == (m, 3)
+    assert morph.rest.shape == morph.target.shape == morph.at(0.3).shape == (n, 2)
+    assert len(morph.rings) == 1
+    assert not crosses_itself([morph.at(0.5)[morph.rings[0]]])
+    report = morph.report
+    assert (report.vertices, report.triangles) == (n, m)
+    assert report.folds_source == report.folds_target == ()
+    assert report.distortion_worst >= report.distortion_mean >= 1
+    assert set(report.timings) == {"outlines", "boundary", "mesh", "placement", "in-between"}
+
+
+def test_holes_map_to_holes_with_marks_on_them():
+    source = square_ring()
+    target = [ring @ rotation(0.5).T for ring in source]
+    morph = core.solve(source, target, [(0, 0), ((1, 0), (1, 0))])
+    assert len(morph.rings) == 2
+    assert morph.report.folds_target == ()
+    area = doubled_areas(morph.at(0.5), morph.triangles).sum() / 2
+    assert area == pytest.approx(12, rel=1e-6)
+
+
+def test_holes_without_marks_follow_the_exterior():
+    source = square_ring()
+    target = [ring @ rotation(0.5).T for ring in source]
+    morph = core.solve(source, target, [(0, 0)])
+    assert morph.report.distortion_mean == pytest.approx(1, abs=1e-6)
+
+
+def test_unequal_numbers_of_holes_are_refused():
+    with pytest.raises(core.SolveError, match="The source has 1 hole, the target none"):
+        core.solve(square_ring(), ellipse())
+
+
+def test_a_mark_that_names_no_vertex_is_refused():
+    with pytest.raises(core.MarkError, match="vertex 99 of ring 0 of the target"):
+        core.solve(ellipse(), letter_l(), [(0, 99)])
+
+
+@pytest.mark.parametrize("nonsense", ["text", [1, 2, 3], [[1, 2], [3]], None, np.zeros((4, 3))])
+def test_what_is_no_outline_is_refused_with_its_side(nonsense):
+    with pytest.raises(core.OutlineError, match="target"):
+        core.solve(ellipse(), nonsense)
+
+
+def test_progress_rises_from_nought_and_names_the_stages():
+    seen = []
+    core.solve(limb(0.0), limb(5.0), progress=lambda f, stage: seen.append((f, stage)))
+    fractions = [f for f, _ in seen]
+    assert fractions == sorted(fractions)
+    assert fractions[0] >= 0
+    assert fractions[-1] <= 1
+    assert {"outlines", "boundary", "mesh", "in-between"} <= {stage for _, stage in seen}
+
+
+def test_progress_can_stop_the_work_at_every_point():
+    total = []
+    core.solve(limb(0.0), limb(5.0), progress=lambda f, stage: total.append(f))
+    for stop in range(len(total)):
+        calls = []
+
+        def progress(fraction, stage, calls=calls, stop=stop):
+            calls.append(fraction)
+            if len(calls) > stop:
+                raise core.Cancelled
+
+        with pytest.raises(core.Cancelled):
+            core.solve(limb(0.0), limb(5.0), progress=progress)
+
+
+def test_the_history_of_energy_and_folds_is_kept():
+    report = core.solve(limb(0.0), limb(5.5)).report
+    assert {i.stage for i in report.iterations} == {"untangle", "symmetric-dirichlet"}
+    assert report.iterations[-1].folds == 0
+    assert all(np.isfinite(i.energy) for i in report.iterations)
+
+
+def test_repairs_are_reported():
+    report = core.solve(np.repeat(ellipse(), 2, axis=0), letter_l()).report
+    assert report.repairs == ("source outline: 40 repeated points dropped",)
+
+
+def test_a_comb_against_a_square_keeps_both_outlines():
+    square = np.array([[0, 0], [9, 0], [9, 4], [0, 4]], dtype=float)
+    morph = core.solve(comb(), square, [(0, 0), (1, 1)])
+    for drawn, end in ((comb(), morph.rest), (square, morph.target)):
+        assert {tuple(p) for p in drawn} <= {tuple(p) for p in end}
