@@ -1,0 +1,16 @@
+"""What comes with the program: icons, and sample documents drawn for it."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+
+def samples() -> list[Path]:
+    """Return the sample documents, in the order they are offered."""
+    return sorted(Path(str(files(__name__) / "samples")).glob("*.betwixt"))
+
+
+def sample(name: str) -> Path:
+    """Return a sample by its name, without the extension; KeyError when there is none."""
+    return {path.stem: path for path in samples()}[name]

@@ -24,6 +24,13 @@ class Part:
     style: Style | None = None
     """How the file paints it; None where it does not say."""
 
+    def style_on(self, background: str) -> Style:
+        """Return the style for a layer; a shape that would not show on the background gets ours."""
+        if self.style is None:
+            return Style()
+        hidden = self.style.fill[:7].lower() == background[:7].lower()
+        return replace(self.style, fill=Style().fill) if hidden and background else self.style
+
 
 def ignore(warning: str) -> None:
     """Drop a warning."""

@@ -1,0 +1,183 @@
+"""``betwixt new``: a project from two outlines."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.cli import values
+from app.cli.terminal import OK, complain
+
+if TYPE_CHECKING:
+    from core.io.importers import Part
+    from core.model import Document, Outline, RingPoint
+
+SUMMARY = "make a project from two outlines"
+DESCRIPTION = """\
+Make a project that morphs SOURCE, at frame 1, into TARGET, at the last frame.
+
+Either may be an SVG drawing (.svg) or a point list (.csv, .txt, .json). Of a file
+with several parts, say which: drawing.svg#2, or by name, drawing.svg#wing. Without
+a choice the parts are listed.
+
+Marks pin a node of the source to a node of the target. Nodes count from 0 along
+the exterior, and on along the holes.
+"""
+EXAMPLES = """\
+examples:
+  betwixt new standing.svg jumping.svg -o jump.betwixt
+  betwixt new icons.svg#moon icons.svg#star --frames 48 --fps 25 -o night.betwixt
+  betwixt new a.csv b.csv --marks 0:0,12:9,30:31 -o ab.betwixt
+"""
+
+ARTBOARD = (960, 540)
+UNLIKE = 4
+"""Shapes whose sizes differ by more than this are probably in different units."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Declare the options."""
+    parser.add_argument("source", metavar="SOURCE", help="FILE or FILE#PART to begin with")
+    parser.add_argument("target", metavar="TARGET", help="FILE or FILE#PART to become")
+    parser.add_argument(
+        "-o", dest="file", type=Path, required=True, metavar="FILE", help="the project to write"
+    )
+    parser.add_argument(
+        "--marks",
+        type=values.marks,
+        default=None,
+        metavar="I:J,…",
+        help="corresponding nodes of source and target, or auto (auto)",
+    )
+    parser.add_argument(
+        "--frames", type=values.length, default=24, metavar="N", help="length in frames (24)"
+    )
+    parser.add_argument(
+        "--fps", type=values.frame_rate, default=24.0, metavar="N", help="frames a second (24)"
+    )
+    parser.add_argument(
+        "--size", type=values.size, default=ARTBOARD, metavar="WxH", help="the artboard (960x540)"
+    )
+    parser.add_argument(
+        "--fit",
+        choices=("together", "each"),
+        default="together",
+        help="scale both shapes alike, which keeps their sizes and places relative to each other,"
+        " or each to fill the artboard (together)",
+    )
+
+
+def run(options: Namespace) -> int:
+    """Read both outlines and write the project."""
+    from core.io import project
+
+    source, target = (_part(text) for text in (options.source, options.target))
+    document = _document(source, target, options)
+    path = options.file
+    if path.suffix != project.EXTENSION:
+        path = path.with_name(path.name + project.EXTENSION)
+    project.save(document, path)
+    print(f"{path}: {source.name} becomes {target.name} in {options.frames} frames")
+    return OK
+
+
+def _part(text: str) -> Part:
+    """Read ``FILE`` or ``FILE#PART``, the part named after both.
+
+    FileError lists the parts when the choice is open.
+    """
+    from core.errors import FileError, Where
+    from core.io import importers
+
+    path, choice = text, ""
+    if "#" in text and not Path(text).exists():
+        path, _, choice = text.rpartition("#")
+    parts = importers.read(path, warn=lambda warning: complain(f"{path}: {warning}"))
+    stem = Path(path).stem
+    if not choice and len(parts) == 1:
+        return replace(parts[0], name=stem)
+    by_name = {part.name: part for part in parts}
+    by_number = {str(i): part for i, part in enumerate(parts, 1)}
+    chosen = by_name.get(choice) or by_number.get(choice)
+    if chosen is None:
+        problem = f"There is no part {choice!r}." if choice else f"There are {len(parts)} parts."
+        listing = "\n".join(
+            f"  {path}#{number:3} {_described(part)}" for number, part in by_number.items()
+        )
+        raise FileError(problem, where=Where(path=path), hint=f"Name one of them:\n{listing}")
+    return replace(chosen, name=f"{stem} {chosen.name}")
+
+
+def _described(part: Part) -> str:
+    left, top, right, bottom = part.outline.bounds()
+    colour = (part.style.fill or part.style.stroke) if part.style else ""
+    holes = len(part.outline.rings) - 1
+    extras = [colour] * bool(colour) + [f"{holes} hole{'s' * (holes > 1)}"] * bool(holes)
+    return ", ".join([part.name, f"{right - left:.4g} × {bottom - top:.4g}", *extras])
+
+
+def _document(source: Part, target: Part, options: Namespace) -> Document:
+    from core.model import Document, Keyframe, Layer
+    from core.model.layer import mark_labels
+
+    outlines, scale = _placed(source.outline, target.outline, options)
+    pairs = _marks(outlines, options.marks)
+    labels = tuple(label for label, _ in zip(mark_labels(), pairs, strict=False))
+    keyframes = tuple(
+        Keyframe(frame, outline, tuple(pair[i] for pair in pairs))
+        for i, (frame, outline) in enumerate(zip((1, options.frames), outlines, strict=True))
+    )
+    width, height = options.size
+    empty = Document(fps=options.fps, size=(float(width), float(height)))
+    style = source.style_on(empty.background)
+    if source.style and style.stroke:
+        style = replace(style, stroke_width=style.stroke_width * scale)
+    return replace(empty, layers=(Layer(1, source.name, keyframes, labels, style),))
+
+
+def _placed(source: Outline, target: Outline, options: Namespace) -> tuple[list[Outline], float]:
+    """Scale both outlines onto the artboard; also return the source's scale."""
+    from core.geometry.fit import fit
+
+    def put(outline: Outline, scale: float, offset: object) -> Outline:
+        return outline.transformed([[scale, 0], [0, scale]], offset)  # type: ignore[arg-type]
+
+    alone = [fit([outline], options.size) for outline in (source, target)]
+    if options.fit == "each":
+        return [put(o, *a) for o, a in zip((source, target), alone, strict=True)], alone[0][0]
+    ratio = alone[0][0] / alone[1][0]
+    if not 1 / UNLIKE < ratio < UNLIKE:
+        complain(
+            f"Note: the target is {max(ratio, 1 / ratio):.3g} times"
+            f" {'larger' if ratio > 1 else 'smaller'} than the source."
+            " Use --fit each to make them alike."
+        )
+    together = fit([source, target], options.size)
+    return [put(outline, *together) for outline in (source, target)], together[0]
+
+
+def _marks(
+    outlines: list[Outline], pairs: list[tuple[int, int]] | None
+) -> list[tuple[RingPoint, RingPoint]]:
+    """Turn node numbers into places. Without any, solving finds the best cyclic shift itself."""
+    return [
+        (_node(outlines[0], i, "source"), _node(outlines[1], j, "target")) for i, j in pairs or ()
+    ]
+
+
+def _node(outline: Outline, number: int, side: str) -> RingPoint:
+    from core.errors import MarkError, Where
+    from core.model import RingPoint
+
+    left = number
+    for ring, nodes in enumerate(map(len, outline.rings)):
+        if left < nodes:
+            return RingPoint(ring, float(left))
+        left -= nodes
+    raise MarkError(
+        f"There is no node {number} on the {side}, which has {number - left} nodes.",
+        where=Where(side=side),
+        hint="Nodes count from 0.",
+    )
