@@ -152,7 +152,11 @@ def _plain(value: Any) -> Any:
 
 def _array(kind: Any, value: Any) -> Any:
     """Read pairs of numbers into an array; the only type that msgspec does not know."""
-    return np.array(msgspec.convert(value, list[tuple[float, float]]), dtype=float).reshape(-1, 2)
+    try:
+        pairs = msgspec.convert(value, list[tuple[float, float]])
+    except msgspec.ValidationError as error:
+        raise ValueError(error) from error  # only then does msgspec add where the array is
+    return np.array(pairs, dtype=float).reshape(-1, 2)
 
 
 def _readable(message: str) -> str:

@@ -1,0 +1,78 @@
+"""Documents nobody would draw, for the laws that must hold for every document."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from core.model import (
+    Document,
+    Easing,
+    Keyframe,
+    Layer,
+    Outline,
+    Recipe,
+    Ring,
+    RingPoint,
+    Style,
+)
+
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+POSITIVE = st.floats(min_value=1e-300, max_value=1e300)
+FRACTION = st.floats(0, 1)
+COLOURS = st.from_regex(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?", fullmatch=True)
+
+
+@st.composite
+def rings(draw: st.DrawFn) -> Ring:
+    shape = (draw(st.integers(3, 6)), 2)
+    points = draw(arrays(np.float64, shape, elements=FINITE))
+    handles = st.one_of(st.just(np.zeros(shape)), arrays(np.float64, shape, elements=FINITE))
+    return Ring(points, draw(handles), draw(handles))
+
+
+OUTLINES = st.lists(rings(), min_size=1, max_size=2).map(lambda found: Outline(tuple(found)))
+EASINGS = st.builds(Easing, FRACTION, FINITE, FRACTION, FINITE, st.booleans())
+STYLES = st.builds(Style, COLOURS, COLOURS, st.floats(0, 1e300))
+RECIPES = st.builds(
+    Recipe,
+    st.sampled_from(["arap", "linear"]),
+    st.integers(3, 10_000),
+    st.sampled_from(["symmetric-dirichlet", "st-venant-kirchhoff"]),
+    POSITIVE,
+    st.floats(0, 1e300),
+)
+
+
+@st.composite
+def keyframes(draw: st.DrawFn, frame: int, marks: int) -> Keyframe:
+    outline = draw(OUTLINES)
+    places = []
+    for _ in range(marks):
+        ring = draw(st.integers(0, len(outline.rings) - 1))
+        at = draw(st.floats(0, len(outline.rings[ring]), exclude_max=True))
+        places.append(RingPoint(ring, at))
+    return Keyframe(frame, outline, tuple(places), draw(EASINGS))
+
+
+@st.composite
+def layers(draw: st.DrawFn, layer_id: int) -> Layer:
+    labels = draw(st.lists(st.text(min_size=1, max_size=3), max_size=3, unique=True))
+    frames = draw(st.lists(st.integers(-1000, 1000), min_size=1, max_size=3, unique=True))
+    keys = tuple(draw(keyframes(frame, len(labels))) for frame in sorted(frames))
+    name, flags = draw(st.text(max_size=8)), st.booleans()
+    return Layer(
+        layer_id, name, keys, tuple(labels), draw(STYLES), draw(RECIPES), draw(flags), draw(flags)
+    )
+
+
+@st.composite
+def documents(draw: st.DrawFn) -> Document:
+    ids = draw(st.lists(st.integers(-(2**40), 2**40), max_size=3, unique=True))
+    return Document(
+        tuple(draw(layers(i)) for i in ids),
+        draw(POSITIVE),
+        (draw(POSITIVE), draw(POSITIVE)),
+        draw(COLOURS),
+    )
