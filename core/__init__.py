@@ -23,9 +23,9 @@ from core.errors import (
     OutlineError,
     SolveError,
 )
-from core.model import Document, Outline, Recipe
 
 if TYPE_CHECKING:
+    from core.model import Document, Outline, Recipe
     from core.morph.face import solve
     from core.morph.morph import Morph
     from core.morph.report import Report
@@ -46,7 +46,14 @@ __all__ = [
     "solve",
 ]
 
-_LAZY = {"solve": "core.morph.face", "Morph": "core.morph.morph", "Report": "core.morph.report"}
+_LAZY = {
+    "Document": "core.model",
+    "Outline": "core.model",
+    "Recipe": "core.model",
+    "Morph": "core.morph.morph",
+    "Report": "core.morph.report",
+    "solve": "core.morph.face",
+}
 
 
 def __getattr__(name: str) -> Any:
