@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 from scipy.sparse import csr_array
 
+from core.geometry.rotation import Complex
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -35,6 +36,11 @@ class Elements:
         # a hat's gradient is its opposite edge turned by 90° inwards, over twice the area
         gradients = np.stack([-opposite[..., 1], opposite[..., 0]], axis=-1)
         return cls(triangles, len(points), doubled / 2, gradients / doubled[:, None, None])
+
+    @cached_property
+    def hats(self) -> Complex:
+        """(3, m) the gradients as complex numbers, corner by corner."""
+        return (self.gradients[..., 0] + 1j * self.gradients[..., 1]).T.copy()
 
     @cached_property
     def operator(self) -> csr_array:

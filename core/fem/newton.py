@@ -8,15 +8,15 @@ eigenvectors in the space of F are two scaling modes, a flip and a twist (Smith,
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csc_array
+import qdldl
+from scipy.sparse import csc_array, csc_matrix
 from scipy.sparse.linalg import SuperLU, splu
 
 from core.fem.elements import Elements, determinants
 from core.fem.energies import Density, Derivatives
-from core.geometry.rotation import signed_svd
+from core.geometry.rotation import Complex, signed_singular_values, turn_and_mirror
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -24,6 +24,11 @@ ARMIJO = 1e-4
 HALVINGS = 30
 STEP_TO_FLAT = 0.9
 """Fraction of the way to the first J = 0 that a step may go under a barrier."""
+REGULARISATION = 1e-10
+"""Added to the Hessian's diagonal, relative to its largest entry."""
+
+PAIRS = np.triu_indices(6)
+"""The upper triangle of an element matrix: rows and columns."""
 
 
 def factorise(matrix: csc_array) -> SuperLU:
@@ -36,34 +41,38 @@ def factorise(matrix: csc_array) -> SuperLU:
     )
 
 
-@dataclass(frozen=True, eq=False)
 class FreeVertices:
-    """Where the element matrices of the free vertices go in the global one: found once."""
+    """The free vertices' linear systems: their sparsity is found once, only numbers change."""
 
-    elements: Elements
-    free: Indices
-    """(k,) the vertices that move."""
-
-    @cached_property
-    def _layout(self) -> tuple[Indices, Indices, Indices, Indices]:
-        number = np.full(self.elements.vertices, -1)
-        number[self.free] = np.arange(len(self.free))
-        corners = number[self.elements.triangles]
+    def __init__(self, elements: Elements, free: Indices) -> None:
+        """Prepare for the vertices ``free`` (k,) of ``elements``; all others are fixed."""
+        self.elements, self.free = elements, free
+        number = np.full(elements.vertices, -1)
+        number[free] = np.arange(len(free))
+        corners = number[elements.triangles]
         unknown = np.where(corners[..., None] < 0, -1, 2 * corners[..., None] + [0, 1])
-        unknown = unknown.reshape(-1, 6)
-        row = np.repeat(unknown, 6, axis=1).ravel()
-        column = np.tile(unknown, (1, 6)).ravel()
-        used = np.flatnonzero((row >= 0) & (column >= 0))
-        size = 2 * len(self.free)
-        keys, slot = np.unique(column[used] * size + row[used], return_inverse=True)
+        ends = unknown.reshape(-1, 6).T[np.array(PAIRS)]  # (2, 21, m)
+        row, column = ends.min(axis=0).ravel(), ends.max(axis=0).ravel()
+        self._used = np.flatnonzero(row >= 0)
+        size = 2 * len(free)
+        keys, self._slot = np.unique(
+            column[self._used] * size + row[self._used], return_inverse=True
+        )
         pointer = np.searchsorted(keys, np.arange(size + 1) * size)
-        return used, slot, keys % size, pointer
+        self._upper = csc_matrix((np.zeros(len(keys)), keys % size, pointer), shape=(size, size))
+        self._diagonal = pointer[1:] - 1
+        self._factor: qdldl.Solver | None = None
 
-    def assemble(self, blocks: Array) -> csc_array:
-        """Sum element matrices (m, 6, 6) into the (2k, 2k) matrix of the free coordinates."""
-        used, slot, rows, pointer = self._layout
-        data = np.bincount(slot, weights=blocks.ravel()[used], minlength=len(rows))
-        return csc_array((data, rows, pointer), shape=(len(pointer) - 1,) * 2)
+    def solve(self, blocks: Array, load: Array) -> Array:
+        """Sum element matrices, given as upper triangles (21, m), and solve for load (2k,)."""
+        data = np.bincount(self._slot, weights=blocks.ravel()[self._used])
+        data[self._diagonal] += REGULARISATION * data[self._diagonal].max()
+        self._upper.data[:] = data
+        if self._factor is None:
+            self._factor = qdldl.Solver(self._upper, upper=True)
+        else:
+            self._factor.update(self._upper, upper=True)
+        return self._factor.solve(load)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,28 +88,27 @@ class Step:
 
 def energy(elements: Elements, density: Density, x: Array) -> float:
     """Return Σ A ψ(F) at positions x (n, 2)."""
-    _, s1, s2, _ = signed_svd(elements.deformation_gradients(x))
+    s1, s2 = signed_singular_values(elements.deformation_gradients(x))
     return float(elements.areas @ density.value(s1, s2))
 
 
 def newton_step(vertices: FreeVertices, density: Density, x: Array) -> Step:
     """Return the projected Newton direction of Σ A ψ at positions x (n, 2)."""
     elements = vertices.elements
-    alpha, s1, s2, beta = signed_svd(elements.deformation_gradients(x))
+    turn, mirror = turn_and_mirror(elements.deformation_gradients(x))
+    s1, s2 = np.abs(turn) + np.abs(mirror), np.abs(turn) - np.abs(mirror)
     d = density.derivatives(s1, s2)
-    modes = _modes(alpha, beta, elements.gradients)
-    stress = d.d1[:, None] * modes[:, 0] + d.d2[:, None] * modes[:, 1]
-    gradient = _scatter(elements, elements.areas[:, None] * stress)
-    curvature = _projected_curvature(d, s1, s2) * elements.areas[:, None, None]
-    matrix = vertices.assemble(modes.transpose(0, 2, 1) @ (curvature @ modes))
-    shift = 1e-10 * matrix.diagonal().max()
-    matrix.setdiag(matrix.diagonal() + shift)
-    free = gradient[vertices.free].ravel()
-    solution = factorise(matrix).solve(-free)
+    modes = _modes(elements.hats, _unit(turn), _unit(mirror))
+    stress = d.d1 * modes[0] + d.d2 * modes[1]
+    gradient = _scatter(elements, elements.areas * stress)[vertices.free].ravel()
+    eigenmodes = _weighted_eigenmodes(d, s1, s2, modes) * np.sqrt(elements.areas)
+    rows, columns = PAIRS
+    blocks = np.einsum("kpm,kpm->pm", eigenmodes[:, rows], eigenmodes[:, columns])
+    solution = vertices.solve(blocks, -gradient)
     direction = np.zeros_like(x)
     direction[vertices.free] = solution.reshape(-1, 2)
     value = float(elements.areas @ density.value(s1, s2))
-    return Step(value, direction, float(free @ solution))
+    return Step(value, direction, float(gradient @ solution))
 
 
 def line_search(elements: Elements, density: Density, x: Array, step: Step) -> tuple[Array, float]:
@@ -135,40 +143,48 @@ def step_to_flat(elements: Elements, x: Array, direction: Array) -> float:
     return float(roots[real].min(initial=np.inf))
 
 
-def _modes(alpha: Array, beta: Array, gradients: Array) -> Array:
-    """Return (m, 4, 6): how the corners' coordinates excite scaling 1, scaling 2, flip and twist.
+def _unit(z: Complex) -> Complex:
+    size = np.abs(z)
+    return np.where(size > 0, z / np.where(size > 0, size, 1), 1)
 
-    The modes are U E Vᵀ with E = diag(1, 0), diag(0, 1), the symmetric and the antisymmetric
-    off-diagonal matrix over √2.
+
+def _modes(hats: Complex, turn: Complex, mirror: Complex) -> Array:
+    """Return (4, 6, m): how the corners' coordinates excite scaling 1, scaling 2, flip and twist.
+
+    With F = R(α) diag(σ₁, σ₂) R(β)ᵀ the modes are R(α) E R(β)ᵀ for E = diag(1, 0), diag(0, 1) and
+    the symmetric and the antisymmetric off-diagonal matrix over √2. They need no angles: turn =
+    exp(i(α − β)) and mirror = exp(i(α + β)) are what F consists of.
     """
-    u1 = np.stack([np.cos(alpha), np.sin(alpha)], axis=1)
-    v1 = np.stack([np.cos(beta), np.sin(beta)], axis=1)
-    u2 = np.stack([-u1[:, 1], u1[:, 0]], axis=1)
-    v2 = np.stack([-v1[:, 1], v1[:, 0]], axis=1)
-    g1 = np.einsum("maj,mj->ma", gradients, v1)
-    g2 = np.einsum("maj,mj->ma", gradients, v2)
-    scale1 = g1[:, :, None] * u1[:, None, :]
-    scale2 = g2[:, :, None] * u2[:, None, :]
-    across, back = g1[:, :, None] * u2[:, None, :], g2[:, :, None] * u1[:, None, :]
-    flip, twist = (across + back) / np.sqrt(2), (across - back) / np.sqrt(2)
-    return np.stack([scale1, scale2, flip, twist], axis=1).reshape(-1, 4, 6)
+    even, odd = turn * hats, mirror * np.conj(hats)
+    modes = np.stack(
+        [(even + odd) / 2, (even - odd) / 2, 1j * odd / np.sqrt(2), 1j * even / np.sqrt(2)]
+    )
+    return np.stack([modes.real, modes.imag], axis=2).reshape(4, 6, -1)
 
 
-def _projected_curvature(d: Derivatives, s1: Array, s2: Array) -> Array:
-    """Return (m, 4, 4) the Hessian of ψ in the basis of the modes, its eigenvalues clamped at 0."""
-    blocks = np.zeros((len(s1), 4, 4))
-    # the 2 x 2 block of the scaling modes, from its two eigenvalues
+def _weighted_eigenmodes(d: Derivatives, s1: Array, s2: Array, modes: Array) -> Array:
+    """Return (4, 6, m) the eigenmodes of ψ's Hessian times the roots of its eigenvalues.
+
+    Negative eigenvalues are clamped at 0, so the sum of their outer products is the projected
+    Hessian. The scaling modes mix by the angle that diagonalises their 2 x 2 block.
+    """
     mean, half = (d.d11 + d.d22) / 2, (d.d11 - d.d22) / 2
     radius = np.hypot(half, d.d12)
-    high, low = np.maximum(mean + radius, 0), np.maximum(mean - radius, 0)
-    middle, spread = (high + low) / 2, (high - low) / 2
-    safe = np.where(radius > 0, radius, 1)
-    blocks[:, 0, 0] = middle + spread * half / safe
-    blocks[:, 1, 1] = middle - spread * half / safe
-    blocks[:, 0, 1] = blocks[:, 1, 0] = spread * d.d12 / safe
-    blocks[:, 2, 2] = np.maximum(_quotient(d.d1 - d.d2, s1 - s2, d.d11 - d.d12, s1), 0)
-    blocks[:, 3, 3] = np.maximum(_quotient(d.d1 + d.d2, s1 + s2, d.d12 + d.d22, s1), 0)
-    return blocks
+    share = np.divide(half, radius, out=np.ones_like(radius), where=radius > 0)
+    cos = np.sqrt((1 + share) / 2)
+    sin = np.copysign(np.sqrt(np.maximum(1 - share, 0) / 2), d.d12)
+    eigenvalues = np.stack(
+        [
+            mean + radius,
+            mean - radius,
+            _quotient(d.d1 - d.d2, s1 - s2, d.d11 - d.d12, s1),
+            _quotient(d.d1 + d.d2, s1 + s2, d.d12 + d.d22, s1),
+        ]
+    )
+    mixed = np.stack(
+        [cos * modes[0] + sin * modes[1], cos * modes[1] - sin * modes[0], modes[2], modes[3]]
+    )
+    return np.sqrt(np.maximum(eigenvalues, 0))[:, None] * mixed
 
 
 def _quotient(above: Array, below: Array, limit: Array, scale: Array) -> Array:
@@ -178,9 +194,10 @@ def _quotient(above: Array, below: Array, limit: Array, scale: Array) -> Array:
 
 
 def _scatter(elements: Elements, blocks: Array) -> Array:
-    """Sum corner values (m, 6) into (n, 2)."""
-    corners = elements.triangles.ravel()
-    values = blocks.reshape(-1, 2)
-    return np.column_stack(
-        [np.bincount(corners, weights=values[:, i], minlength=elements.vertices) for i in (0, 1)]
-    )
+    """Sum corner values (6, m) into (n, 2)."""
+    corners = elements.triangles.T.ravel()
+    sums = [
+        np.bincount(corners, weights=blocks[i::2].ravel(), minlength=elements.vertices)
+        for i in (0, 1)
+    ]
+    return np.column_stack(sums)

@@ -7,6 +7,11 @@ import numpy as np
 from core.model.outline import Array
 
 
+def cross(u: Array, v: Array) -> Array:
+    """Return the cross products (...) of vectors (..., 2): positive when v lies left of u."""
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+
+
 def signed_area(points: Array) -> float:
     """Return the enclosed area, positive when the polyline turns from +x towards +y."""
     p = points - points.mean(axis=0)  # far from the origin the products would cancel

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
+
+Complex = NDArray[np.complex128]
 
 
 def polar(F: Array) -> tuple[Array, Array]:
@@ -28,16 +31,22 @@ def rotate(theta: Array, M: Array) -> Array:
     return out
 
 
-def signed_svd(F: Array) -> tuple[Array, Array, Array, Array]:
-    """Split F = R(α) diag(σ₁, σ₂) R(β)ᵀ with σ₁ ≥ |σ₂| and σ₂ of the sign of det F.
+def turn_and_mirror(F: Array) -> tuple[Complex, Complex]:
+    """Split F = turn + mirror into the part that commutes with rotations and the part that flips.
 
-    Returns α, σ₁, σ₂, β, each (m,). The halves of F that turn and that mirror give them directly.
+    As complex numbers (m,): F acts on z as ``turn * z + mirror * conj(z)``. The signed singular
+    values are |turn| ± |mirror|, the second with the sign of det F.
     """
-    a, b = F[:, 0, 0] + F[:, 1, 1], F[:, 1, 0] - F[:, 0, 1]
-    c, d = F[:, 0, 0] - F[:, 1, 1], F[:, 1, 0] + F[:, 0, 1]
-    turn, mirror = np.hypot(a, b) / 2, np.hypot(c, d) / 2
-    difference, total = np.arctan2(b, a), np.arctan2(d, c)
-    return (total + difference) / 2, turn + mirror, turn - mirror, (total - difference) / 2
+    z = F.astype(complex)
+    turn = (z[:, 0, 0] + z[:, 1, 1] + 1j * (z[:, 1, 0] - z[:, 0, 1])) / 2
+    mirror = (z[:, 0, 0] - z[:, 1, 1] + 1j * (z[:, 1, 0] + z[:, 0, 1])) / 2
+    return turn, mirror
+
+
+def signed_singular_values(F: Array) -> tuple[Array, Array]:
+    """Return σ₁ ≥ |σ₂| (m,) of F (m, 2, 2), σ₂ with the sign of det F."""
+    turn, mirror = turn_and_mirror(F)
+    return np.abs(turn) + np.abs(mirror), np.abs(turn) - np.abs(mirror)
 
 
 def wrap(angle: Array) -> Array:

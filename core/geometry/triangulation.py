@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from shapely import Polygon
 
 from core.errors import SolveError
@@ -61,11 +63,53 @@ def triangulate(rings: Sequence[Array], max_area: float) -> Mesh:
     result = triangle.triangulate(planar, f"pYYq{MIN_ANGLE}a{max_area:.15f}")
     points, triangles = result["vertices"], result["triangles"].astype(np.int64)
     if not np.array_equal(points[: len(boundary)], boundary):
-        raise SolveError(
-            "The outline could not be triangulated with its own vertices.",
-            hint="Look for nodes that almost touch another edge and move them apart.",
-        )
+        raise _untriangulable()
     return Mesh(points, _oriented(points, triangles), tuple(indices))
+
+
+def triangulate_polygon(points: Array, diagonals: Indices) -> Indices:
+    """Triangulate a closed polyline (b, 2) without new vertices, by constrained Delaunay.
+
+    ``diagonals`` (k, 2) are pairs of its indices that must become edges. Returns (b − 2, 3)
+    indices. The polyline may run along an edge twice, there and back, as one does that cuts an
+    outline with holes open: each triangle is then given the corners of its own side of the cut.
+    """
+    import triangle  # loading it is slow, and only solving needs it
+
+    b = len(points)
+    places, number = np.unique(points, axis=0, return_inverse=True)
+    edges = np.column_stack([number, np.roll(number, -1)])
+    segments = np.unique(np.sort(np.concatenate([edges, number[diagonals]]), axis=1), axis=0)
+    result = triangle.triangulate({"vertices": places, "segments": segments}, "p")
+    corners = _corners_of_polygon(result["triangles"].astype(np.int64), edges)
+    corners = corners[(corners >= 0).all(axis=1)]
+    if len(result["vertices"]) != len(places) or len(corners) != b - 2:
+        raise _untriangulable()
+    return corners
+
+
+def _corners_of_polygon(triangles: Indices, edges: Indices) -> Indices:
+    """Return (m, 3) the index along a closed polyline of each triangle's corners; -1 outside.
+
+    ``edges`` (b, 2) are its directed edges, by the vertex numbers that ``triangles`` use. Corners at
+    a vertex are one corner of the polyline when they meet across edges that are not its own.
+    """
+    n = int(triangles.max()) + 1
+    tail = triangles.ravel()
+    head = np.roll(triangles, -1, axis=1).ravel()
+    key = tail * n + head
+    order = np.argsort(key)
+    border = np.concatenate([edges @ [n, 1], edges @ [1, n]])
+    inner = np.flatnonzero(~np.isin(key, border) & np.isin(head * n + tail, key))
+    twin = order[np.searchsorted(key, (head * n + tail)[inner], sorter=order)]
+    following = np.arange(len(tail)) + np.tile([1, 1, -2], len(triangles))
+    # across an edge its tail meets the twin's head
+    graph = coo_array((np.ones(len(inner)), (inner, following[twin])), shape=(len(tail),) * 2)
+    count, corner = connected_components(graph, directed=False)
+    index = np.full(count, -1)
+    _, start, side = np.intersect1d(edges @ [n, 1], key, return_indices=True)
+    index[corner[side]] = start
+    return index[corner].reshape(-1, 3)
 
 
 def split_chords(mesh: Mesh) -> Mesh:
@@ -83,6 +127,13 @@ def split_chords(mesh: Mesh) -> Mesh:
     points = np.vstack([mesh.points, mesh.points[edges[chord]].mean(axis=1)])
     triangles = _split(points, mesh.triangles, middle[sides])
     return Mesh(points, triangles, mesh.rings)
+
+
+def _untriangulable() -> SolveError:
+    return SolveError(
+        "The outline could not be triangulated with its own vertices.",
+        hint="Look for nodes that almost touch another edge and move them apart.",
+    )
 
 
 def unique_edges(triangles: Indices) -> tuple[Indices, Indices, Indices]:

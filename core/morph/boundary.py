@@ -128,6 +128,12 @@ def _check_order(ring: MatchedRing, order: Indices, labels: Sequence[str]) -> No
             break
     else:
         wrong = ring.marks
+    if len(along) > 2 and _descents(along[::-1]) <= 1:
+        raise MarkError(
+            "The marks run backwards around the target, so the shape would be turned inside out.",
+            where=Where("target", marks=tuple(sorted(ring.marks))),
+            hint="Mirror the target, or set its marks in the same direction as on the source.",
+        )
     names = ", ".join(labels[i] for i in sorted(wrong))
     here, there = (
         " ".join(labels[ring.marks[i]] for i in np.argsort(at))

@@ -49,7 +49,8 @@ def _outline(given: Shape, side: str) -> Outline:
     if isinstance(given, Outline):
         return given
     try:
-        rings = given if np.ndim(given[0]) == 2 else [given]  # type: ignore[index]
+        parts = list(given)  # type: ignore[arg-type]
+        rings = parts if np.ndim(parts[0]) == 2 else [parts]
         return Outline.polygon(*(np.asarray(ring, dtype=float) for ring in rings))
     except (IndexError, TypeError, ValueError) as problem:
         raise OutlineError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import islice
 from time import perf_counter
 
 import numpy as np
@@ -36,16 +37,19 @@ def solve_outlines(
     target: Outline,
     marks: Sequence[tuple[RingPoint, RingPoint]] = (),
     *,
+    labels: Sequence[str] | None = None,
     recipe: Recipe | None = None,
     progress: Progress = silent,
 ) -> Morph:
     """Map the source onto the target and prepare the in-betweens.
 
-    ``marks`` are corresponding places on both. A ring without marks starts at the best cyclic
+    ``marks`` are corresponding places on both, named by ``labels`` in errors. A ring without marks
+    starts at the best cyclic
     shift. Raises ``OutlineError``, ``MarkError`` or ``SolveError`` for input that has no answer,
     and whatever ``progress`` raises.
     """
     recipe = recipe or Recipe()
+    labels = labels or list(islice(mark_labels(), len(marks)))
     clock = _Clock(progress)
     clock.start("outlines", 0.0)
     ends = [
@@ -54,7 +58,9 @@ def solve_outlines(
     ]
     _check_rings(*ends)
     clock.start("boundary", 0.1)
-    pairs = _boundary(ends[0], ends[1], _positions(source, target, marks, ends), recipe)
+    pairs = _boundary(
+        ends[0], ends[1], _positions(source, target, marks, labels, ends), labels, recipe
+    )
     clock.start("mesh", 0.2)
     # at unit area all tolerances and energies mean the same for every shape
     frames = [(end.rings[0].mean(axis=0), float(np.sqrt(end.area))) for end in ends]
@@ -123,6 +129,7 @@ def _positions(
     source: Outline,
     target: Outline,
     marks: Sequence[tuple[RingPoint, RingPoint]],
+    labels: Sequence[str],
     ends: Sequence[CleanOutline],
 ) -> Positions:
     """Find the marks on the cleaned rings."""
@@ -130,7 +137,7 @@ def _positions(
     for index, (a, b) in enumerate(marks):
         if a.ring != b.ring:
             raise MarkError(
-                f"Mark {_labels(index + 1)[index]} lies on ring {a.ring} of the source"
+                f"Mark {labels[index]} lies on ring {a.ring} of the source"
                 f" but on ring {b.ring} of the target.",
                 where=Where("target", ring=b.ring, marks=(index,)),
                 hint="Move it to the matching ring.",
@@ -143,8 +150,7 @@ def _positions(
             length, distance = nearest_length(ring, arc_lengths(ring), point)
             if distance > OFF_OUTLINE * end.diagonal:
                 raise MarkError(
-                    f"Mark {_labels(index + 1)[index]} lies on a part of the {side}"
-                    " that had to be cut off.",
+                    f"Mark {labels[index]} lies on a part of the {side} that had to be cut off.",
                     where=Where(side, point=(float(point[0]), float(point[1])), marks=(index,)),
                     hint="Move the mark, or mend the crossing edges there.",
                 )
@@ -153,16 +159,14 @@ def _positions(
     return found
 
 
-def _labels(count: int) -> list[str]:
-    labels = mark_labels()
-    return [next(labels) for _ in range(count)]
-
-
 def _boundary(
-    source: CleanOutline, target: CleanOutline, positions: Positions, recipe: Recipe
+    source: CleanOutline,
+    target: CleanOutline,
+    positions: Positions,
+    labels: Sequence[str],
+    recipe: Recipe,
 ) -> list[BoundaryPair]:
     """Match ring by ring; the exterior's rotation guides rings that have no marks."""
-    labels = _labels(len(positions))
     perimeters = [float(arc_lengths(end.rings[0])[-1]) for end in (source, target)]
     spacing = (perimeters[0] / recipe.density, perimeters[1] / recipe.density)
     rotation = None

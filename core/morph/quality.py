@@ -9,7 +9,7 @@ from shapely import Polygon
 
 from core.fem.elements import Elements, determinants
 from core.fem.energies import SymmetricDirichlet
-from core.geometry.rotation import signed_svd
+from core.geometry.rotation import signed_singular_values
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -29,7 +29,7 @@ def folds(points: Array, triangles: Indices) -> Indices:
 def distortion(elements: Elements, x: Array) -> Array:
     """Return (m,) symmetric Dirichlet density of each triangle: 1 for an isometry, ∞ if folded."""
     F = elements.deformation_gradients(x)
-    _, s1, s2, _ = signed_svd(F)
+    s1, s2 = signed_singular_values(F)
     return np.where(determinants(F) > 0, SymmetricDirichlet().value(s1, s2), np.inf)
 
 

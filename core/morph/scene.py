@@ -24,6 +24,8 @@ class Span:
     source: Outline
     target: Outline
     marks: tuple[tuple[RingPoint, RingPoint], ...]
+    labels: tuple[str, ...]
+    """The letters of the marks, for messages."""
     recipe: Recipe
 
 
@@ -35,7 +37,7 @@ def span_of(layer: Layer, index: int) -> Span:
     """Return what span ``index`` of a layer depends on."""
     source, target = layer.keyframes[index : index + 2]
     pairs = tuple(zip(source.marks, target.marks, strict=True))
-    return Span(source.outline, target.outline, pairs, layer.recipe)
+    return Span(source.outline, target.outline, pairs, layer.labels, layer.recipe)
 
 
 def spans_of(document: Document) -> list[Span]:
@@ -49,7 +51,12 @@ def solve_span(span: Span, progress: Progress = silent) -> Morph:
     from core.morph.pipeline import solve_outlines  # scipy loads with the first solve, not before
 
     return solve_outlines(
-        span.source, span.target, span.marks, recipe=span.recipe, progress=progress
+        span.source,
+        span.target,
+        span.marks,
+        labels=span.labels,
+        recipe=span.recipe,
+        progress=progress,
     )
 
 

@@ -2,8 +2,13 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.geometry.rotation import polar, rotate, signed_svd, unwrap
-from tests.core.shapes import rotation
+from core.geometry.rotation import (
+    polar,
+    rotate,
+    signed_singular_values,
+    turn_and_mirror,
+    unwrap,
+)
 
 matrices = st.lists(st.floats(-3, 3), min_size=4, max_size=4).map(
     lambda entries: np.array(entries).reshape(1, 2, 2)
@@ -18,11 +23,17 @@ def test_polar_factors_multiply_back_and_the_stretch_is_symmetric(F):
 
 
 @given(matrices)
-def test_signed_singular_values_multiply_back_and_carry_the_sign(F):
-    alpha, s1, s2, beta = signed_svd(F)
-    assert np.allclose(rotation(alpha[0]) @ np.diag([s1[0], s2[0]]) @ rotation(beta[0]).T, F)
-    assert s1[0] >= abs(s2[0])
-    assert np.isclose(s1[0] * s2[0], np.linalg.det(F[0]))
+def test_signed_singular_values_carry_the_sign_of_the_determinant(F):
+    s1, s2 = (s[0] for s in signed_singular_values(F))
+    assert np.allclose([s1, abs(s2)], np.linalg.svd(F[0], compute_uv=False))
+    assert np.isclose(s1 * s2, np.linalg.det(F[0]))
+
+
+@given(matrices, st.complex_numbers(max_magnitude=5))
+def test_turn_and_mirror_act_on_complex_numbers_as_the_matrix_does(F, z):
+    turn, mirror = (part[0] for part in turn_and_mirror(F))
+    x, y = F[0] @ [z.real, z.imag]
+    assert np.isclose(turn * z + mirror * z.conjugate(), x + 1j * y)
 
 
 def test_unwrapping_follows_a_spiral_through_several_turns():
