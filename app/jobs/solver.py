@@ -113,6 +113,14 @@ class Solver(QObject):
         key = self._keys.get(span)
         return None if key is None else self._last_good.get(key)
 
+    def solutions(self) -> dict[Span, Morph]:
+        """Return every exact solution that is known."""
+        return {
+            span: outcome
+            for span, outcome in self._outcomes.items()
+            if not isinstance(outcome, MorphError)
+        }
+
     def state(self, layer_id: int, index: int) -> SpanState:
         """Return how the solution of a span stands."""
         return self._states.get((layer_id, index), SpanState.NONE)

@@ -1,0 +1,159 @@
+"""What the menus do to the document, where it takes more than one call."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from PySide6.QtCore import QObject
+
+from app.canvas.tools.edits import delete_nodes
+from app.workspace import Workspace
+from core.errors import EditError
+from core.model import Layer
+from core.model.easing import PRESETS
+from core.model.edits import (
+    duplicate_layer,
+    insert_keyframe,
+    remove_keyframe,
+    remove_layer,
+    remove_marks,
+    reorder_layer,
+    set_easing,
+    update_layer,
+)
+from core.morph.scene import keyframe_at
+
+
+class Commands(QObject):
+    """Acts on what is selected and where the playhead is; every edit is one undo step."""
+
+    def __init__(self, workspace: Workspace, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._selection = workspace.session, workspace.selection
+        self._playhead, self._solver = workspace.playhead, workspace.solver
+
+    # -- edit ----------------------------------------------------------------------------------
+
+    def delete(self) -> None:
+        """Delete the selected nodes, or else the selected mark, or else the keyframe here."""
+        if self._selection.nodes:
+            self.delete_nodes()
+        elif self._selection.mark is not None:
+            self.remove_mark()
+        else:
+            self.remove_keyframe()
+
+    def delete_nodes(self) -> None:
+        """Delete the selected nodes, whichever rings they are on."""
+        self._session.apply(
+            self.tr("Delete nodes"),
+            delete_nodes,
+            self._layer().id,
+            self._selection.key,
+            self._selection.nodes,
+        )
+
+    def select_all_nodes(self) -> None:
+        """Select every node of the current keyframe."""
+        if keyframe := self._selection.keyframe:
+            self._selection.select_nodes(
+                frozenset(
+                    (ring, node)
+                    for ring, nodes in enumerate(keyframe.outline.rings)
+                    for node in range(len(nodes))
+                )
+            )
+
+    # -- layers --------------------------------------------------------------------------------
+
+    def duplicate_layer(self) -> None:
+        """Add a copy of the current layer above it, and make it current."""
+        layer = self._layer()
+        name = self.tr("{name} copy").format(name=layer.name)
+        if self._session.apply(self.tr("Duplicate layer"), duplicate_layer, layer.id, name):
+            layers = self._session.document.layers
+            self._selection.select_layer(layers[self._index(layer) + 1].id)
+
+    def remove_layer(self) -> None:
+        """Delete the current layer."""
+        self._session.apply(self.tr("Delete layer"), remove_layer, self._layer().id)
+
+    def move_layer(self, by: int) -> None:
+        """Move the current layer up in the stack, or down if negative."""
+        layer = self._layer()
+        index = self._index(layer) + by
+        if 0 <= index < len(self._session.document.layers):
+            text = self.tr("Raise layer") if by > 0 else self.tr("Lower layer")
+            self._session.apply(text, reorder_layer, layer.id, index)
+
+    def select_layer(self, by: int) -> None:
+        """Make the next layer up current, or the next one down if negative."""
+        layers = self._session.document.layers
+        index = self._index(self._layer()) + by
+        if 0 <= index < len(layers):
+            self._selection.select_layer(layers[index].id)
+
+    def toggle_layer(self, state: Literal["visible", "locked"]) -> None:
+        """Hide or show, lock or unlock the current layer."""
+        layer = self._layer()
+        on = not getattr(layer, state)
+        names = {
+            ("visible", True): self.tr("Show layer"),
+            ("visible", False): self.tr("Hide layer"),
+            ("locked", True): self.tr("Lock layer"),
+            ("locked", False): self.tr("Unlock layer"),
+        }
+        self._session.apply(names[state, on], update_layer, layer.id, **{state: on})
+
+    # -- keyframes -----------------------------------------------------------------------------
+
+    def insert_keyframe(self) -> None:
+        """Make what is on screen at the playhead a keyframe."""
+        layer, frame = self._layer(), round(self._playhead.frame)
+        key = keyframe_at(layer, frame, self._solver.morph_of)
+        if self._session.apply(self.tr("Insert keyframe"), insert_keyframe, layer.id, key):
+            self._select_key_at(layer.id, frame)
+
+    def remove_keyframe(self) -> None:
+        """Delete the keyframe under the playhead, or else the selected one."""
+        layer = self._layer()
+        here = layer.key_at(self._playhead.frame)
+        key = self._selection.key if here is None else here
+        self._session.apply(self.tr("Delete keyframe"), remove_keyframe, layer.id, key)
+
+    def set_easing(self, preset: str) -> None:
+        """Set the timing of the span under the playhead."""
+        layer = self._layer()
+        key, _ = layer.span_at(self._playhead.frame)
+        self._session.apply(self.tr("Set timing"), set_easing, layer.id, key, PRESETS[preset])
+
+    # -- marks ---------------------------------------------------------------------------------
+
+    def remove_mark(self) -> None:
+        """Remove the selected mark."""
+        layer, mark = self._layer(), self._selection.mark
+        if mark is not None:
+            text = self.tr("Remove mark {letter}").format(letter=layer.labels[mark])
+            self._session.apply(text, remove_marks, layer.id, [mark])
+
+    def remove_all_marks(self) -> None:
+        """Remove every mark of the current layer."""
+        layer = self._layer()
+        marks = range(len(layer.labels))
+        self._session.apply(self.tr("Remove all marks"), remove_marks, layer.id, marks)
+
+    # -- shared --------------------------------------------------------------------------------
+
+    def _layer(self) -> Layer:
+        layer = self._selection.layer
+        if layer is None:
+            raise EditError("There is no layer yet.", hint="Draw an outline, or import one.")
+        return layer
+
+    def _index(self, layer: Layer) -> int:
+        return [other.id for other in self._session.document.layers].index(layer.id)
+
+    def _select_key_at(self, layer_id: int, frame: int) -> None:
+        key = self._session.document.layer(layer_id).key_at(frame)
+        if key is not None:
+            self._selection.select_key(layer_id, key)
