@@ -41,7 +41,9 @@ def run(arguments: Sequence[str]) -> int:
         if not arguments or not (arguments[0] in COMMANDS or arguments[0].startswith("-")):
             return editor.run(arguments)
         options = _parser().parse_args(arguments)
-        return int(options.run(options))
+        code = int(options.run(options))
+        sys.stdout.flush()
+        return code
     except MorphError as error:
         complain(str(error))
         return WRONG
@@ -72,7 +74,9 @@ def _parser() -> argparse.ArgumentParser:
         epilog=EPILOG,
     )
     parser.add_argument("--version", action=_Version, help="print the version and leave")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(
+        title="commands", metavar="COMMAND", required=True, prog="betwixt"
+    )
     for name, module in COMMANDS.items():
         command = commands.add_parser(
             name, help=module.SUMMARY, description=module.DESCRIPTION, epilog=module.EXAMPLES

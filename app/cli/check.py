@@ -27,6 +27,9 @@ EXAMPLES = """\
 examples:
   betwixt check jump.betwixt
   betwixt check jump.betwixt --json > report.json
+
+In the JSON report, "folds" and "crossings" are counts frame by frame, "end_errors"
+fractions of the outline's size, "seconds" times.
 """
 
 Entry = dict[str, Any]
@@ -96,8 +99,8 @@ def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
         "sound": found.sound,
         "vertices": len(morph.rest),
         "triangles": len(morph.triangles),
-        "folds": {str(check.frame): check.folds for check in found.frames},
-        "crossings": {str(check.frame): check.crossings for check in found.frames},
+        "folds": [check.folds for check in found.frames],
+        "crossings": [check.crossings for check in found.frames],
         "end_errors": {"source": found.source_error, "target": found.target_error},
         "distortion": {
             "mean": _finite(morph.report.distortion_mean),
@@ -127,8 +130,8 @@ def _lines(path: Path, entries: list[Entry], sound: bool) -> list[str]:
         stages = ", ".join(f"{name} {1000 * t:.0f}" for name, t in seconds["stages"].items())
         lines += [
             f"  mesh        {entry['vertices']} vertices, {entry['triangles']} triangles",
-            f"  folds       {_by_frame(entry['folds'])}",
-            f"  crossings   {_by_frame(entry['crossings'])}",
+            f"  folds       {_by_frame(entry['folds'], first)}",
+            f"  crossings   {_by_frame(entry['crossings'], first)}",
             f"  ends        off by {errors['source']:.1e} and {errors['target']:.1e} of the size",
             f"  distortion  {_distortion(**entry['distortion'])}",
             f"  time        {1000 * seconds['solve']:.0f} ms to solve ({stages}),"
@@ -149,11 +152,10 @@ def _distortion(mean: float | None, worst: float | None) -> str:
     return f"{mean:.3g} on average, where 1 is rigid; {worst:.3g} at worst"
 
 
-def _by_frame(counts: dict[str, int]) -> str:
+def _by_frame(counts: list[int], first: int) -> str:
     """Summarise counts: where they are not zero."""
-    bad = {frame: count for frame, count in counts.items() if count}
+    bad = [f"{count} at frame {frame}" for frame, count in enumerate(counts, first) if count]
     if not bad:
         return "none"
-    shown = [f"{count} at frame {frame}" for frame, count in list(bad.items())[:5]]
     more = f", and {len(bad) - 5} frames more" if len(bad) > 5 else ""
-    return f"in {len(bad)} of {len(counts)} frames: {', '.join(shown)}{more}"
+    return f"in {len(bad)} of {len(counts)} frames: {', '.join(bad[:5])}{more}"

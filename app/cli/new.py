@@ -49,23 +49,35 @@ def add_arguments(parser: ArgumentParser) -> None:
         type=values.marks,
         default=None,
         metavar="I:J,…",
-        help="corresponding nodes of source and target, or auto (auto)",
+        help="corresponding nodes, or auto, which finds the best fit (default auto)",
     )
     parser.add_argument(
-        "--frames", type=values.length, default=24, metavar="N", help="length in frames (24)"
+        "--frames",
+        type=values.length,
+        default=24,
+        metavar="N",
+        help="length in frames (default 24)",
     )
     parser.add_argument(
-        "--fps", type=values.frame_rate, default=24.0, metavar="N", help="frames a second (24)"
+        "--fps",
+        type=values.frame_rate,
+        default=24.0,
+        metavar="N",
+        help="frames a second (default 24)",
     )
     parser.add_argument(
-        "--size", type=values.size, default=ARTBOARD, metavar="WxH", help="the artboard (960x540)"
+        "--size",
+        type=values.size,
+        default=ARTBOARD,
+        metavar="WxH",
+        help="pixels of the artboard (default 960x540)",
     )
     parser.add_argument(
         "--fit",
         choices=("together", "each"),
         default="together",
-        help="scale both shapes alike, which keeps their sizes and places relative to each other,"
-        " or each to fill the artboard (together)",
+        help="scale both shapes alike, so that one stays larger than the other, or each to fill"
+        " the artboard (default together)",
     )
 
 

@@ -31,19 +31,22 @@ def add_arguments(parser: ArgumentParser) -> None:
         "-o", dest="folder", type=Path, required=True, metavar="DIR", help="where the files go"
     )
     parser.add_argument(
-        "--frames", type=values.frames, metavar="A-B", help="which frames (all keyframes span)"
+        "--frames", type=values.frames, metavar="A-B", help="first and last frame (default: all)"
     )
     parser.add_argument(
-        "--size", type=values.size, metavar="WxH", help="pixels to fit into (the artboard's size)"
+        "--size",
+        type=values.size,
+        metavar="WxH",
+        help="pixels to fit into (default: the artboard's)",
     )
     parser.add_argument(
-        "--format", choices=("png", "svg", "npz"), default="png", help="kind of file (png)"
+        "--format", choices=("png", "svg", "npz"), default="png", help="kind of file (default png)"
     )
     parser.add_argument(
         "--background",
         type=values.background,
         metavar="COLOUR",
-        help="#rrggbb, #rrggbbaa, white, black, or none for transparent (the project's own)",
+        help="#rrggbb, #rrggbbaa, white, black, or none for transparent (default: the project's)",
     )
 
 
@@ -63,7 +66,8 @@ def run(options: Namespace) -> int:
     frames = options.frames or document.frames
     with progress_bar() as progress:
         morphs = solve_all(document, frames, progress=progress)
-        film = DocumentFilm(document, frames, morphs.get, options.background)
+    film = DocumentFilm(document, frames, morphs.get, options.background)
+    with progress_bar() as progress:
         paths = chosen.export(film, options.folder, options.file.stem, options.size, progress)
     several = f" to {paths[-1].name}" if len(paths) > 1 else ""
     print(f"{options.folder}: {paths[0].name}{several}")

@@ -34,9 +34,13 @@ def progress_bar() -> Iterator[Progress]:
     if not sys.stderr.isatty():
         yield silent
         return
+    from shutil import get_terminal_size
+
     from tqdm import tqdm
 
-    with tqdm(total=100, bar_format="{desc} {bar} {percentage:3.0f} %", leave=False) as bar:
+    columns = get_terminal_size().columns
+    form = "{desc} {bar} {percentage:3.0f} %"
+    with tqdm(total=100, bar_format=form, ncols=columns, leave=False) as bar:
 
         def show(fraction: float, stage: str) -> None:
             bar.desc = f"{stage[:24]:24}"
