@@ -1,0 +1,47 @@
+"""One of a few values to choose."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QComboBox, QWidget
+
+from app.style import TARGET_SIZE
+
+
+class Choice(QComboBox):
+    """A box of (text, value) options; the wheel changes it only while it has the focus."""
+
+    edited = Signal(object)
+    """The artist chose this value."""
+
+    def __init__(
+        self, name: str, options: Iterable[tuple[str, Any]], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(name)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumHeight(TARGET_SIZE)
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self._values: list[Any] = []
+        for text, value in options:
+            self.addItem(text)
+            self._values.append(value)
+        self.activated.connect(self._on_activated)
+
+    def show_value(self, value: Any) -> None:
+        """Show a value, or nothing if it is none of the options; nothing is emitted."""
+        self.setCurrentIndex(self._values.index(value) if value in self._values else -1)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Leave the wheel to the panel, unless this is being edited."""
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()
+
+    def _on_activated(self, index: int) -> None:
+        self.edited.emit(self._values[index])

@@ -1,0 +1,78 @@
+"""A number to type, step or spin."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QFocusEvent, QWheelEvent
+from PySide6.QtWidgets import QDoubleSpinBox, QWidget
+
+from app.style import TARGET_SIZE
+
+
+class NumberField(QDoubleSpinBox):
+    """A spin box that tells what the artist did apart from what it was told to show.
+
+    The wheel changes it only while it has the focus, so that a panel can be scrolled over it.
+    """
+
+    edited = Signal(float)
+    """The artist changed the value."""
+
+    def __init__(
+        self,
+        name: str,
+        least: float,
+        most: float,
+        *,
+        decimals: int = 0,
+        step: float = 1.0,
+        suffix: str = "",
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(
+            parent, decimals=decimals, minimum=least, maximum=most, singleStep=step, suffix=suffix
+        )
+        self.setAccessibleName(name)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumHeight(TARGET_SIZE)
+        self.setCorrectionMode(QDoubleSpinBox.CorrectionMode.CorrectToNearestValue)
+        self._gesture = object()
+        self.valueChanged.connect(self.edited)
+        self.lineEdit().returnPressed.connect(self._end_gesture)
+
+    @property
+    def gesture(self) -> object:
+        """What the edits of one visit have in common: from focus, or Return, to the next."""
+        return self._gesture
+
+    def show_value(self, value: float) -> None:
+        """Show a value; nothing is emitted, and text being typed is left alone if it says so."""
+        if self.value() != round(value, self.decimals()):
+            with QSignalBlocker(self):
+                self.setValue(value)
+
+    def limit(self, least: float, most: float) -> None:
+        """Set what may be typed; nothing is emitted, whatever value is shown."""
+        with QSignalBlocker(self):
+            self.setRange(least, most)
+
+    def textFromValue(self, value: float) -> str:
+        """Write a number without needless zeros."""
+        text = super().textFromValue(value)
+        point = self.locale().decimalPoint()
+        return text.rstrip("0").removesuffix(point) if point in text else text
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Begin a gesture."""
+        self._end_gesture()
+        super().focusInEvent(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Leave the wheel to the panel, unless this is being edited."""
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()
+
+    def _end_gesture(self) -> None:
+        self._gesture = object()

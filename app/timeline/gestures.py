@@ -1,0 +1,139 @@
+"""What the mouse does on the timeline, one class a gesture, from press to release."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtWidgets import QApplication
+
+from app.timeline.keys import room
+from app.timeline.rows import Place
+from app.timeline.time_view import TimeView
+from app.workspace import Workspace
+from core.model.edits import move_keyframe
+
+FINEST_SCRUB = 2
+"""Decimals of a frame when scrubbing between frames."""
+EDGE_SPEED = 0.2
+"""How much of the way beyond the edge is scrolled at each move of the mouse."""
+
+
+class Gesture(Protocol):
+    """A drag under way."""
+
+    def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
+        """Follow the mouse to pixel x."""
+
+    def finish(self) -> None:
+        """The button was released."""
+
+    def cancel(self) -> None:
+        """The artist pressed Escape: leave everything as it was before."""
+
+
+class Scrub:
+    """Moves the playhead: to whole frames, or anywhere while Shift is held."""
+
+    def __init__(self, workspace: Workspace, view: TimeView) -> None:
+        self._playhead, self._view = workspace.playhead, view
+        self._before = self._playhead.frame
+        self._playhead.stop()
+
+    def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
+        """Go to the frame under the mouse; beyond an edge, time scrolls along."""
+        beyond = min(x, 0.0) + max(x - self._view.width, 0.0)
+        if beyond:
+            self._view.pan(-EDGE_SPEED * beyond)
+        frame = self._view.scale.frame(x - beyond)
+        between = modifiers & Qt.KeyboardModifier.ShiftModifier
+        self._playhead.move_to(round(frame, FINEST_SCRUB) if between else round(frame))
+
+    def finish(self) -> None:
+        """Stay there."""
+
+    def cancel(self) -> None:
+        """Go back."""
+        self._playhead.move_to(self._before)
+
+
+class KeyDrag:
+    """Moves a keyframe in time, between its neighbours; the playhead goes with it."""
+
+    def __init__(self, workspace: Workspace, view: TimeView, place: Place, x: float) -> None:
+        self._workspace, self._view = workspace, view
+        self._layer_id, self._key = place
+        layer = workspace.session.document.layer(self._layer_id)
+        self._start = self._frame = layer.keyframes[self._key].frame
+        self._least, self._most = room(layer, self._key, workspace.playhead.lowest)
+        self._grabbed = x
+        self._dragging = False
+
+    def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
+        """Follow the mouse, once it has left the place where it was pressed."""
+        if not self._dragging:
+            if abs(x - self._grabbed) < QApplication.startDragDistance():
+                return
+            self._dragging = True
+            self._workspace.session.begin(QCoreApplication.translate("Timeline", "Move Keyframe"))
+        frame = self._start + round((x - self._grabbed) / self._view.scale.pixels)
+        frame = int(min(max(frame, self._least), self._most))
+        if frame != self._frame:
+            self._frame = frame
+            self._workspace.session.apply("", move_keyframe, self._layer_id, self._key, frame)
+            self._workspace.playhead.move_to(frame)
+
+    def finish(self) -> None:
+        """Keep it there, as one undo step."""
+        if self._dragging:
+            self._workspace.session.commit()
+
+    def cancel(self) -> None:
+        """Put it back."""
+        if self._dragging:
+            self._workspace.session.abandon()
+            self._workspace.playhead.move_to(self._start)
+
+
+class RangeDrag:
+    """Moves one end of the playback range."""
+
+    def __init__(self, workspace: Workspace, view: TimeView, end: int) -> None:
+        self._playhead, self._view, self._end = workspace.playhead, view, end
+        self._before = self._playhead.range if self._playhead.limited else None
+
+    def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
+        """Follow the mouse, up to the other end."""
+        frame = round(self._view.scale.frame(x))
+        first, last = self._playhead.range
+        if self._end == 0:
+            self._playhead.set_range((min(frame, last), last))
+        else:
+            self._playhead.set_range((first, max(frame, first)))
+
+    def finish(self) -> None:
+        """Keep it."""
+
+    def cancel(self) -> None:
+        """Go back to the range before."""
+        self._playhead.set_range(self._before)
+
+
+class Pan:
+    """Shifts the part of time that is shown."""
+
+    def __init__(self, view: TimeView, x: float) -> None:
+        self._view, self._x, self._moved = view, x, 0.0
+
+    def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
+        """Follow the mouse."""
+        self._view.pan(x - self._x)
+        self._moved += x - self._x
+        self._x = x
+
+    def finish(self) -> None:
+        """Stay there."""
+
+    def cancel(self) -> None:
+        """Go back."""
+        self._view.pan(-self._moved)

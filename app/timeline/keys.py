@@ -1,0 +1,76 @@
+"""What can be done with keys and spans, by mouse, keyboard or menu alike."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QCoreApplication
+
+from app.timeline.rows import Place
+from app.workspace import Workspace
+from core.errors import EditError
+from core.model import Easing, Layer
+from core.model.edits import move_keyframe, remove_keyframe, set_easing
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("Timeline", text)
+
+
+def delete_key(workspace: Workspace) -> None:
+    """Delete the chosen key."""
+    layer = workspace.selection.layer
+    if layer is not None and not _locked(workspace, layer):
+        key = workspace.selection.key
+        workspace.session.apply(_tr("Delete Keyframe"), remove_keyframe, layer.id, key)
+
+
+def nudge_key(workspace: Workspace, frames: int) -> None:
+    """Move the chosen key in time; nudges in a row are one undo step."""
+    layer = workspace.selection.layer
+    if layer is None or _locked(workspace, layer):
+        return
+    key = workspace.selection.key
+    least, most = room(layer, key, workspace.playhead.lowest)
+    frame = min(max(layer.keyframes[key].frame + frames, least), most)
+    gesture = ("nudge", layer.id, key)
+    workspace.session.amend(gesture, _tr("Move Keyframe"), move_keyframe, layer.id, key, int(frame))
+    workspace.playhead.move_to(frame)
+
+
+def room(layer: Layer, key: int, lowest: int) -> tuple[int, float]:
+    """Return the first and last frame that a key can be moved to."""
+    before, after = layer.keyframes[:key], layer.keyframes[key + 1 :]
+    least = before[-1].frame + 1 if before else min(lowest, layer.keyframes[key].frame)
+    return least, after[0].frame - 1 if after else float("inf")
+
+
+def ease(workspace: Workspace, place: Place, easing: Easing) -> None:
+    """Set the timing of a span."""
+    if not _locked(workspace, workspace.session.document.layer(place[0])):
+        workspace.session.apply(_tr("Change Easing"), set_easing, *place, easing)
+
+
+def play_only(workspace: Workspace, place: Place) -> None:
+    """Limit playback to a span; if it is already, play everything again."""
+    first, last = workspace.session.document.layer(place[0]).keyframes[place[1] : place[1] + 2]
+    frames, playhead = (first.frame, last.frame), workspace.playhead
+    alone = playhead.limited and playhead.range == frames
+    playhead.set_range(None if alone else frames)
+
+
+def choose_layer(workspace: Workspace, up: int) -> None:
+    """Choose the layer above (1) or below (-1) the current one."""
+    layers, current = workspace.session.document.layers, workspace.selection.layer
+    if current is not None:
+        index = min(max(layers.index(current) + up, 0), len(layers) - 1)
+        workspace.selection.select_layer(layers[index].id)
+
+
+def _locked(workspace: Workspace, layer: Layer) -> bool:
+    """Return whether a layer is locked; if it is, say so."""
+    if layer.locked:
+        error = EditError(
+            _tr("Layer “{}” is locked.").format(layer.name),
+            hint=_tr("Unlock it with the padlock beside its name."),
+        )
+        workspace.session.failed.emit(error)
+    return layer.locked

@@ -1,0 +1,98 @@
+"""How keys, spans and their states look. State is told by pattern as well as by colour."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+
+from app.jobs.solver import SpanState
+from app.style import colours
+from core.model import Layer
+
+KEY = 7.0
+"""Half the diagonal of a key's diamond."""
+BAR = 14.0
+"""Height of a span."""
+BAND = 5.0
+"""Height of the band below it that shows its state."""
+
+
+def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, chosen: bool) -> None:
+    """Draw a span from key to key: a tinted bar with an arrow, or a plain stop for a hold."""
+    c = colours()
+    tint = QColor(layer.style.fill[:7] or c.muted)
+    tint.setAlphaF((0.5 if chosen else 0.32) if layer.visible else 0.12)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(tint)
+    painter.drawRoundedRect(box, 3.0, 3.0)
+    start, end, y = box.left() + KEY + 4, box.right() - KEY - 4, box.center().y()
+    if end - start < 10:
+        return
+    pen = QPen(QColor(c.text if layer.visible else c.disabled), 1.2)
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+    if hold:
+        pen.setStyle(Qt.PenStyle.DotLine)
+    painter.setPen(pen)
+    painter.drawLine(QPointF(start, y), QPointF(end, y))
+    pen.setStyle(Qt.PenStyle.SolidLine)
+    painter.setPen(pen)
+    if hold:
+        painter.drawLine(QPointF(end, y - 4), QPointF(end, y + 4))
+    else:
+        painter.drawPolyline(
+            [QPointF(end - 4, y - 3.5), QPointF(end, y), QPointF(end - 4, y + 3.5)]
+        )
+
+
+def paint_state(painter: QPainter, box: QRectF, state: SpanState) -> None:
+    """Draw the band of a state: solid, striped, zigzag, or dashed where there is no solution."""
+    c = colours()
+    y = box.center().y()
+    painter.save()
+    painter.setClipRect(box.adjusted(-1, -1, 1, 1))
+    match state:
+        case SpanState.SOLVED:
+            painter.fillRect(box.adjusted(0, 1, 0, -1), QColor(c.solved))
+        case SpanState.SOLVING:
+            faint = QColor(c.solving)
+            faint.setAlphaF(0.25)
+            painter.fillRect(box, faint)
+            painter.setPen(QPen(QColor(c.solving), 2.0))
+            for i in range(int(box.width() / 7) + 2):
+                x = box.left() + 7 * i
+                painter.drawLine(QPointF(x - 4, box.bottom() + 1), QPointF(x + 3, box.top() - 1))
+        case SpanState.FAILED:
+            painter.setPen(QPen(QColor(c.error), 1.6))
+            count = int(box.width() / 4) + 2
+            peaks = [box.top() if i % 2 else box.bottom() for i in range(count)]
+            painter.drawPolyline([QPointF(box.left() + 4 * i, p) for i, p in enumerate(peaks)])
+        case SpanState.NONE:
+            painter.setPen(QPen(QColor(c.disabled), 1.4, Qt.PenStyle.DashLine))
+            painter.drawLine(QPointF(box.left(), y), QPointF(box.right(), y))
+    painter.restore()
+
+
+def paint_failure(painter: QPainter, centre: QPointF) -> None:
+    """Draw a warning triangle in the middle of a span that could not be solved."""
+    c = colours()
+    x, y = centre.x(), centre.y()
+    painter.setPen(QPen(QColor(c.window), 1.5))
+    painter.setBrush(QColor(c.error))
+    corners = [QPointF(x, y - 9), QPointF(x + 10, y + 8), QPointF(x - 10, y + 8)]
+    painter.drawPolygon(QPolygonF(corners))
+    painter.setPen(QPen(QColor(c.on_accent), 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    painter.drawLine(QPointF(x, y - 3), QPointF(x, y + 2))
+    painter.drawPoint(QPointF(x, y + 5.5))
+
+
+def paint_key(
+    painter: QPainter, centre: QPointF, *, chosen: bool, hovered: bool, dim: bool
+) -> None:
+    """Draw a key's diamond; the chosen one is larger, ringed and in the selection's colour."""
+    c = colours()
+    size = KEY + (1.5 if chosen else 0.0) + (1.0 if hovered else 0.0)
+    painter.setPen(QPen(QColor(c.window if not chosen else c.text), 1.5))
+    painter.setBrush(QColor(c.selection if chosen else c.disabled if dim else c.text))
+    x, y = centre.x(), centre.y()
+    corners = [(x, y - size), (x + size, y), (x, y + size), (x - size, y)]
+    painter.drawPolygon(QPolygonF([QPointF(*corner) for corner in corners]))
