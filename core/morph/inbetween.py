@@ -28,25 +28,36 @@ class RigidInbetween:
 
     def __init__(self, rest: Array, target: Array, triangles: Indices) -> None:
         elements = Elements.of(rest, triangles)
-        theta, self._stretch = polar(elements.deformation_gradients(target))
+        theta, self.stretch = polar(elements.deformation_gradients(target))
         pairs = adjacent_triangles(triangles)
         self.theta = unwrap(theta, pairs, elements.areas) if len(pairs) else theta
         """(m,) rotation of each triangle, unwrapped across neighbours."""
         weights = np.repeat(elements.areas, 2)
         self._load = csr_array(elements.operator.T.multiply(weights[None, :]))[1:]
-        self._solve = factorise(elements.laplacian[1:, 1:].tocsc()).solve  # vertex 0 is pinned
+        self._factor = factorise(elements.laplacian[1:, 1:].tocsc())  # vertex 0 is pinned
         self._mass = _mass(triangles, elements.areas, len(rest))
         self._centres = self._mass @ rest, self._mass @ target
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t; their centre of mass runs straight from end to end."""
-        blend = t * self._stretch
-        blend[:, [0, 1], [0, 1]] += 1 - t
-        ideal = rotate(t * self.theta, blend).transpose(0, 2, 1).reshape(-1, 2)
         x = np.zeros((len(self._mass), 2))
-        x[1:] = self._solve(self._load @ ideal)
+        x[1:] = self.solve(self.load(self.ideal(t)))
         start, end = self._centres
         return x + ((1 - t) * start + t * end - self._mass @ x)
+
+    def ideal(self, t: float) -> Array:
+        """Return B(t) (m, 2, 2) of every triangle."""
+        blend = t * self.stretch
+        blend[:, [0, 1], [0, 1]] += 1 - t
+        return rotate(t * self.theta, blend)
+
+    def load(self, ideal: Array) -> Array:
+        """Return the right-hand sides (n − 1, 2) for ideal gradients (m, 2, 2)."""
+        return self._load @ ideal.transpose(0, 2, 1).reshape(-1, 2)
+
+    def solve(self, load: Array) -> Array:
+        """Return the positions (n − 1, 2) of all vertices but the pinned one: one solve."""
+        return self._factor.solve(load)
 
 
 class LinearInbetween:

@@ -25,10 +25,12 @@ def letter_l() -> Array:
     return np.array([[0, 0], [3, 0], [3, 1], [1, 1], [1, 5], [0, 5]], dtype=float)
 
 
-def limb(bend: float, n: int = 16, length: float = 6.0, width: float = 1.0) -> Array:
-    """Return a bar bent into an arc by an angle, its area kept by its middle line's length."""
+def limb(
+    bend: float, n: int = 16, length: float = 6.0, width: float = 1.0, curl: float = 1.0
+) -> Array:
+    """Return a bar bent by an angle: into an arc, or with ``curl`` > 1 more and more to its end."""
     s = np.linspace(0, 1, n)
-    angle = bend * s
+    angle = bend * s**curl
     step = length / (n - 1)
     middle = np.cumsum(np.column_stack([np.cos(angle), np.sin(angle)]) * step, axis=0)
     normal = np.column_stack([-np.sin(angle), np.cos(angle)]) * width / 2
