@@ -134,40 +134,40 @@ def _document(source: Part, target: Part, options: Namespace) -> Document:
     from core.model import Document, Keyframe, Layer
     from core.model.layer import mark_labels
 
-    outlines, scale = _placed(source.outline, target.outline, options)
+    width, height = options.size
+    empty = Document(fps=options.fps, size=(float(width), float(height)))
+    ends = _placed([source, target], empty.size, options.fit)
+    outlines = [end.outline for end in ends]
     pairs = _marks(outlines, options.marks)
     labels = tuple(label for label, _ in zip(mark_labels(), pairs, strict=False))
     keyframes = tuple(
         Keyframe(frame, outline, tuple(pair[i] for pair in pairs))
         for i, (frame, outline) in enumerate(zip((1, options.frames), outlines, strict=True))
     )
-    width, height = options.size
-    empty = Document(fps=options.fps, size=(float(width), float(height)))
-    style = source.style_on(empty.background)
-    if source.style and style.stroke:
-        style = replace(style, stroke_width=style.stroke_width * scale)
+    style = ends[0].style_on(empty.background)
     return replace(empty, layers=(Layer(1, source.name, keyframes, labels, style),))
 
 
-def _placed(source: Outline, target: Outline, options: Namespace) -> tuple[list[Outline], float]:
-    """Scale both outlines onto the artboard; also return the source's scale."""
-    from core.geometry.fit import fit
+def _placed(ends: list[Part], size: tuple[float, float], how: str) -> list[Part]:
+    """Bring source and target onto the artboard; say so if one is lost beside the other."""
+    from core.io.importers import bounds, fitted
 
-    def put(outline: Outline, scale: float, offset: object) -> Outline:
-        return outline.transformed([[scale, 0], [0, scale]], offset)  # type: ignore[arg-type]
-
-    alone = [fit([outline], options.size) for outline in (source, target)]
-    if options.fit == "each":
-        return [put(o, *a) for o, a in zip((source, target), alone, strict=True)], alone[0][0]
-    ratio = alone[0][0] / alone[1][0]
+    if how == "each":
+        return [placed for end in ends for placed in fitted([end], size)]
+    before, after = (_extent(bounds([end])) for end in ends)
+    ratio = after / before
     if not 1 / UNLIKE < ratio < UNLIKE:
         complain(
             f"Note: the target is {max(ratio, 1 / ratio):.3g} times"
             f" {'larger' if ratio > 1 else 'smaller'} than the source."
             " Use --fit each to make them alike."
         )
-    together = fit([source, target], options.size)
-    return [put(outline, *together) for outline in (source, target)], together[0]
+    return fitted(ends, size)
+
+
+def _extent(box: tuple[float, float, float, float]) -> float:
+    left, top, right, bottom = box
+    return max(right - left, bottom - top)
 
 
 def _marks(

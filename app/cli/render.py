@@ -52,8 +52,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(options: Namespace) -> int:
     """Solve the project and write its frames."""
-    from app.jobs.solve_all import solve_all
-    from app.render.film import DocumentFilm
+    from app.jobs.export import Export
     from app.render.formats import BY_KEY
     from core.io import project
 
@@ -63,12 +62,17 @@ def run(options: Namespace) -> int:
     if chosen.key == "png":
         require_qt("PySide6.QtGui", OFFSCREEN_PACKAGES, "--format svg works without them.")
     document = project.load(options.file)
-    frames = options.frames or document.frames
+    export = Export(
+        document,
+        options.frames or document.frames,
+        chosen,
+        options.folder,
+        options.file.stem,
+        options.size,
+        options.background,
+    )
     with progress_bar() as progress:
-        morphs = solve_all(document, frames, progress=progress)
-    film = DocumentFilm(document, frames, morphs.get, options.background)
-    with progress_bar() as progress:
-        paths = chosen.export(film, options.folder, options.file.stem, options.size, progress)
+        paths = export.run({}, progress)
     several = f" to {paths[-1].name}" if len(paths) > 1 else ""
     print(f"{options.folder}: {paths[0].name}{several}")
     return OK

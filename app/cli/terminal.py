@@ -38,9 +38,9 @@ def progress_bar() -> Iterator[Progress]:
 
     from tqdm import tqdm
 
-    columns = get_terminal_size().columns
+    columns, rows = get_terminal_size()  # some terminals say 0 × 0; this makes it 80 × 24
     form = "{desc} {bar} {percentage:3.0f} %"
-    with tqdm(total=100, bar_format=form, ncols=columns, leave=False) as bar:
+    with tqdm(total=100, bar_format=form, ncols=columns, nrows=rows, leave=False) as bar:
 
         def show(fraction: float, stage: str) -> None:
             bar.desc = f"{stage[:24]:24}"

@@ -12,12 +12,12 @@ from app.files import dialogs
 from app.files.export_dialog import export_frames
 from app.files.export_form import Subject
 from app.files.import_dialog import Choice, ask_parts
-from app.files.placing import Place, add_layers, add_pair, fitted, misplaced, set_key
+from app.files.placing import Place, add_layers, add_pair, misplaced, set_key
 from app.settings import Settings
 from app.workspace import Workspace
 from core.errors import FileError
 from core.io import importers, project
-from core.io.importers import Part
+from core.io.importers import Part, fitted
 from core.model import Document
 
 

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from enum import Enum
 
-import numpy as np
-
+from app.canvas.tools.drawing import TARGET_AFTER
 from app.canvas.tools.edits import draw_key, redraw_key
-from core.io.importers import Part
+from core.io.importers import Part, bounds
 from core.model import Document
 from core.model.edits import add_layer, update_layer
 
-FILLED = 0.7
-"""The part of the artboard that a fitted import fills at most."""
 TINY = 0.05
 """Smaller than this part of the artboard's height and width, an import could hardly be seen."""
-GAP = 24
-"""Frames from an imported source to its target."""
 
 
 class Place(Enum):
@@ -39,31 +33,12 @@ def misplaced(parts: Sequence[Part], size: tuple[float, float]) -> bool:
     return outside or max((right - left) / width, (bottom - top) / height) < TINY
 
 
-def fitted(parts: Sequence[Part], size: tuple[float, float]) -> list[Part]:
-    """Scale and move all parts together to the middle of an artboard."""
-    left, top, right, bottom = bounds(parts)
-    scale = FILLED * min(size[0] / max(right - left, 1e-12), size[1] / max(bottom - top, 1e-12))
-    middle = np.array([left + right, top + bottom]) / 2
-    offset = np.array(size) / 2 - scale * middle
-    return [
-        replace(part, outline=part.outline.transformed(scale * np.eye(2), offset)) for part in parts
-    ]
-
-
-def bounds(parts: Sequence[Part]) -> tuple[float, float, float, float]:
-    """(left, top, right, bottom) of all parts together."""
-    each = np.array([part.outline.bounds() for part in parts])
-    left, top = each[:, :2].min(axis=0)
-    right, bottom = each[:, 2:].max(axis=0)
-    return float(left), float(top), float(right), float(bottom)
-
-
 def add_layers(document: Document, parts: Sequence[Part], frame: int) -> Document:
     """Add a layer for each part, the first lowest."""
     for part in parts:
         document = add_layer(document, part.name, frame, part.outline)
-        if part.style is not None:
-            document = update_layer(document, document.layers[-1].id, style=part.style)
+        style = part.style_on(document.background)
+        document = update_layer(document, document.layers[-1].id, style=style)
     return document
 
 
@@ -71,7 +46,7 @@ def add_pair(document: Document, parts: Sequence[Part], frame: int) -> Document:
     """Add one layer that turns the first part into the second."""
     first, second = parts
     document = add_layers(document, [first], frame)
-    return draw_key(document, document.layers[-1].id, frame + GAP, second.outline)
+    return draw_key(document, document.layers[-1].id, frame + TARGET_AFTER, second.outline)
 
 
 def set_key(document: Document, layer_id: int, place: Place, part: Part, frame: float) -> Document:
@@ -84,4 +59,4 @@ def set_key(document: Document, layer_id: int, place: Place, part: Part, frame: 
     key = layer.span_at(frame)[0] + (place is Place.TARGET)
     if key < len(layer.keyframes):
         return redraw_key(document, layer_id, key, part.outline)
-    return draw_key(document, layer_id, layer.keyframes[-1].frame + GAP, part.outline)
+    return draw_key(document, layer_id, layer.keyframes[-1].frame + TARGET_AFTER, part.outline)

@@ -9,6 +9,7 @@ from pathlib import Path
 from core.errors import FileError, Where
 from core.io.importers import points_csv, points_json, svg
 from core.io.importers.part import Part, Warn, ignore
+from core.io.importers.placing import bounds, fitted
 from core.io.replacing import unreadable
 
 MAX_BYTES = 64 * 2**20
@@ -60,4 +61,4 @@ def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
         raise FileError(error.what, where=Where(path=str(path)), hint=error.hint) from error
 
 
-__all__ = ["FORMATS", "ImportFormat", "Part", "Warn", "read"]
+__all__ = ["FORMATS", "ImportFormat", "Part", "Warn", "bounds", "fitted", "read"]
