@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import ceil, pi, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,12 +13,12 @@ from core.model.edits import MIN_NODES
 from core.model.outline import Array
 
 if TYPE_CHECKING:
-    from svgelements import Path
+    from svgelements import Arc, CubicBezier, Path
 
 SAME = 1e-6
 """Nodes closer than this fraction of the path's size, with no curve between them, are one."""
-QUARTER = 0.2501
-"""Largest piece of an arc that becomes one cubic, in turns: a circle gets four nodes."""
+QUARTER = 1.001 * pi / 2
+"""Largest piece of an arc that becomes one cubic, in radians: a circle gets four nodes."""
 
 
 def rings_of(path: Path) -> tuple[list[Ring], bool]:
@@ -25,7 +26,7 @@ def rings_of(path: Path) -> tuple[list[Ring], bool]:
 
     The path is brought to its place in the drawing. Curves without area are left out.
     """
-    path.approximate_arcs_with_cubics(error=QUARTER)
+    _replace_arcs(path)
     path.reify()
     drawn = [list(curve) for curve in _curves(path)]
     corners = [p for curve in drawn for p, *_ in curve]
@@ -37,6 +38,34 @@ def rings_of(path: Path) -> tuple[list[Ring], bool]:
             rings.append(ring)
             opened |= not closed
     return rings, opened
+
+
+def _replace_arcs(path: Path) -> None:
+    """Replace arcs by cubics while they still are arcs: a transform may skew them.
+
+    The cubics are tangent at both ends and touch the arc in the middle: off by less than 3e-4 of
+    the radius. (The library's own cut a full circle short by 2e-3 of its area.)
+    """
+    from svgelements import Arc
+
+    for i in range(len(path) - 1, -1, -1):
+        if isinstance(path[i], Arc):
+            path[i : i + 1] = _cubics(path[i])
+
+
+def _cubics(arc: Arc) -> list[CubicBezier]:
+    from svgelements import CubicBezier
+
+    pieces = max(ceil(abs(arc.sweep) / QUARTER), 1)
+    step = arc.sweep / pieces
+    angles = [arc.get_start_t() + step * i for i in range(pieces + 1)]
+    ends = [arc.start, *map(arc.point_at_t, angles[1:-1]), arc.end]
+    reach = 4 / 3 * tan(step / 4)
+    handles = [(arc.point_at_t(angle + pi / 2) - arc.center) * reach for angle in angles]
+    return [
+        CubicBezier(ends[i], ends[i] + handles[i], ends[i + 1] - handles[i + 1], ends[i + 1])
+        for i in range(pieces)
+    ]
 
 
 Node = tuple[Array, Array, Array, bool]

@@ -49,6 +49,7 @@ def survey(data: bytes, warn: Warn) -> bytes:
     for warning in sorted(set(_warnings(root))):
         warn(warning)
     _name_shapes(root)
+    _drop_broken_paths(root, warn)
     _shelve_symbols(root)
     return ElementTree.tostring(root)
 
@@ -104,6 +105,15 @@ def _name_shapes(root: Element) -> None:
         title = next((child.text for child in element if _tag(child) == "title"), None)
         name = element.get(LABEL) or (title or "").strip() or element.get("id")
         element.set(NAME, name or f"{tag} {numbers[tag]}")
+
+
+def _drop_broken_paths(root: Element, warn: Warn) -> None:
+    """Empty the paths that begin nowhere; the parser would give up on the whole drawing."""
+    for element in root.iter():
+        data = element.get("d", "").lstrip()
+        if _tag(element) == "path" and data and data[0] not in "Mm":
+            warn(f"“{element.get(NAME)}” is no path and is left out.")
+            element.set("d", "")
 
 
 def _shelve_symbols(root: Element) -> None:
