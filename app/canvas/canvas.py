@@ -1,0 +1,305 @@
+"""The canvas: its panes, the tool in hand, and who gets which mouse or key event."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, QVariantAnimation, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
+
+from app.canvas.camera import Camera
+from app.canvas.moment import Moment, Role, moment_of
+from app.canvas.pane import Pane
+from app.canvas.pointer import Pointer
+from app.canvas.tools.freehand import FreehandTool
+from app.canvas.tools.marks import MarksTool
+from app.canvas.tools.nodes import NodesTool
+from app.canvas.tools.pen import PenTool
+from app.canvas.tools.select import SelectTool
+from app.canvas.tools.tool import Command, Tool
+from app.workspace import Workspace
+from core.errors import MorphError
+
+SIDE_BY_SIDE = (Role.SOURCE, Role.IN_BETWEEN, Role.TARGET)
+SHARES = {Role.SOURCE: 4, Role.IN_BETWEEN: 5, Role.TARGET: 4}
+"""Widths of the panes side by side, in parts."""
+TOOLS: tuple[type[Tool], ...] = (SelectTool, NodesTool, PenTool, FreehandTool, MarksTool)
+PULSES, PULSE_MS = 3, 600
+HAND_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_H)
+"""Held, they make the left button move the view; a tap of Space plays."""
+
+
+class Canvas(QWidget):
+    """Shows the moment under the playhead, and lets tools edit it."""
+
+    hint_changed = Signal(str)
+    """What the next click does."""
+    tool_changed = Signal(str)
+    _refresh_wanted = Signal()
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self._error: MorphError | None = None
+        self._hint = ""
+        self._hand_from: tuple[QPointF, float] | None = None
+        self.camera = Camera(self)
+        self._tools = {tool.name: tool(workspace, self) for tool in TOOLS}
+        self._tool = self._tools[SelectTool.name]
+        self._splitter = QSplitter(Qt.Orientation.Horizontal, self, childrenCollapsible=False)
+        self.panes = {role: Pane(role, workspace, self.camera, self._splitter) for role in Role}
+        self._lay_out()
+        self._refresh_due = False
+        self._moment: Moment | None = None
+        self._refresh_wanted.connect(self._refresh, Qt.ConnectionType.QueuedConnection)
+        self._pulse = QVariantAnimation(
+            self, startValue=0.0, endValue=0.0, duration=PULSE_MS, loopCount=PULSES
+        )
+        self._pulse.setKeyValueAt(0.3, 1.0)
+        self._pulse.valueChanged.connect(self._on_pulse)
+        self._listen()
+        self._show_layout()
+        self.refresh()
+
+    # -- the tool in hand ----------------------------------------------------------------------
+
+    @property
+    def tool(self) -> str:
+        """The name of the tool in hand."""
+        return self._tool.name
+
+    def set_tool(self, name: str) -> None:
+        """Take a tool: "select", "nodes", "pen", "freehand" or "marks"."""
+        if name == self.tool:
+            return
+        self._tool.put_away()
+        self._tool = self._tools[name]
+        self.tool_changed.emit(name)
+        self._after_tool()
+
+    # -- the view ------------------------------------------------------------------------------
+
+    def fit(self) -> None:
+        """Show everything that was drawn, or the artboard when nothing was."""
+        document = self._workspace.session.document
+        bounds = QRectF()
+        for layer in document.layers:
+            for keyframe in layer.keyframes:
+                left, top, right, bottom = keyframe.outline.bounds()
+                bounds = bounds.united(QRectF(left, top, right - left, bottom - top))
+        if bounds.isEmpty():
+            bounds = QRectF(0, 0, *document.size)
+        sizes = [pane.view.size() for pane in self._shown_panes()]
+        self.camera.fit(
+            bounds, QSizeF(min(s.width() for s in sizes), min(s.height() for s in sizes))
+        )
+
+    def zoom_100(self) -> None:
+        """Show one document unit as one pixel."""
+        self.camera.zoom_at(self.camera.centre, 1.0 / self.camera.zoom)
+
+    def flip(self) -> None:
+        """Mirror the view."""
+        self.camera.flip()
+
+    # -- errors --------------------------------------------------------------------------------
+
+    def show_error(self, error: MorphError) -> None:
+        """Highlight the place of an error."""
+        self._error = error
+        self.refresh()
+        self._pulse.start()
+
+    def clear_error(self) -> None:
+        """Take the highlight away."""
+        self._error = None
+        self._pulse.stop()
+        self.refresh()
+
+    # -- showing -------------------------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Show the workspace as it is now."""
+        self._moment = None
+        self._refresh()
+
+    def _refresh(self) -> None:
+        """Show what changed: while the playhead moves within a span, the panes of keys stay."""
+        self._refresh_due = False
+        before, self._moment = self._moment, moment_of(self._workspace)
+        keys_stay = before is not None and before.span == self._moment.span
+        for pane in self._shown_panes():
+            if pane.live or not keys_stay:
+                pane.look(self._moment, self._error)
+        self._tool.look_again()
+        self._after_tool()
+
+    def _refresh_soon(self) -> None:
+        """Show once, before the next paint, what several signals announce."""
+        self._moment = None
+        self._on_playhead_moved()
+
+    def _on_playhead_moved(self) -> None:
+        if not self._refresh_due:
+            self._refresh_due = True
+            self._refresh_wanted.emit()
+
+    def _on_replaced(self) -> None:
+        self._tool.abandon()
+        self._error = None
+        self.fit()
+
+    def _on_pulse(self, pulse: float) -> None:
+        for pane in self._shown_panes():
+            pane.error_ring.set_pulse(pulse)
+
+    def _shown_panes(self) -> list[Pane]:
+        overlay = self._workspace.view.layout == "overlay"
+        roles = (Role.OVERLAY,) if overlay else SIDE_BY_SIDE
+        return [self.panes[role] for role in roles]
+
+    def _show_layout(self) -> None:
+        shown = self._shown_panes()
+        for pane in self.panes.values():
+            pane.setVisible(pane in shown)
+        self.setFocusProxy(shown[len(shown) // 2].view)
+
+    def _on_view_changed(self) -> None:
+        self._show_layout()
+        self.refresh()
+
+    def _on_resized(self) -> None:
+        """Fit again, as long as the artist has neither zoomed nor panned."""
+        if self.camera.fitted:
+            self.fit()
+
+    # -- events of the views -------------------------------------------------------------------
+
+    def _on_pressed(self, pointer: Pointer) -> None:
+        self._tool.press(pointer)
+        self._after_tool()
+
+    def _on_moved(self, pointer: Pointer) -> None:
+        self._tool.move(pointer)
+        self._after_tool()
+
+    def _on_released(self, pointer: Pointer) -> None:
+        self._tool.release(pointer)
+        self._after_tool()
+
+    def _on_double_clicked(self, pointer: Pointer) -> None:
+        self._tool.double_click(pointer)
+        self._after_tool()
+
+    def _on_left(self) -> None:
+        self._tool.leave()
+        self._after_tool()
+
+    def _on_key_wanted(self, event: QKeyEvent) -> None:
+        if self._command(event) is not None:
+            event.accept()
+
+    def _on_key_pressed(self, event: QKeyEvent) -> None:
+        command = self._command(event)
+        if command is not None:
+            event.accept()
+            command()
+            self._after_tool()
+
+    def _on_key_released(self, event: QKeyEvent) -> None:
+        if event.isAutoRepeat():
+            return
+        if self._hand_from is not None and event.key() in HAND_KEYS:
+            event.accept()
+            self._let_go(tap=event.key() == Qt.Key.Key_Space)
+        self._tool.key_released()
+
+    def _command(self, event: QKeyEvent) -> Command | None:
+        """Return what a key does on the canvas now, before any shortcut of the window."""
+        key, modifiers = Qt.Key(event.key()), event.modifiers()
+        plain = not modifiers
+        if plain and key in HAND_KEYS:
+            return self._take_hand
+        if plain and key == Qt.Key.Key_Escape:
+            if self._tool.busy:
+                return self._tool.abandon
+            if self.tool != SelectTool.name and not self._workspace.playhead.playing:
+                return self._put_tool_away
+            return None
+        return self._tool.key(key, modifiers)
+
+    def _put_tool_away(self) -> None:
+        self.set_tool(SelectTool.name)
+
+    def _take_hand(self) -> None:
+        if self._hand_from is None:
+            self._hand_from = self.camera.centre, self.camera.zoom
+            for pane in self._shown_panes():
+                pane.view.hand = True
+
+    def _let_go(self, *, tap: bool) -> None:
+        unmoved = self._hand_from == (self.camera.centre, self.camera.zoom)
+        self._hand_from = None
+        for pane in self.panes.values():
+            pane.view.hand = False
+        if tap and unmoved:
+            self._workspace.playhead.toggle()
+
+    def _on_focus_changed(self) -> None:
+        """Make the key of the pane that is worked in the selected one, for the keys to act on."""
+        layer = self._workspace.selection.layer
+        for pane in self._shown_panes():
+            pane.set_focused(pane.view.hasFocus())
+            if pane.view.hasFocus() and layer is not None and pane.key is not None:
+                self._workspace.selection.select_key(layer.id, pane.key)
+
+    def _after_tool(self) -> None:
+        """Show what the tool changed about itself."""
+        for pane in self._shown_panes():
+            pane.follow(self._tool)
+        if self._tool.hint != self._hint:
+            self._hint = self._tool.hint
+            self.hint_changed.emit(self._hint)
+
+    # -- Qt ------------------------------------------------------------------------------------
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Follow the theme; drop the hand when the keyboard goes to another window."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            self._refresh_soon()
+        elif event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self._let_go(tap=False)
+
+    def _listen(self) -> None:
+        w = self._workspace
+        for signal in (
+            w.session.changed,
+            w.selection.changed,
+            w.playhead.playing_changed,
+            w.solver.updated,
+        ):
+            signal.connect(self._refresh_soon)
+        w.playhead.moved.connect(self._on_playhead_moved)
+        w.session.replaced.connect(self._on_replaced)
+        w.view.changed.connect(self._on_view_changed)
+        for pane in self.panes.values():
+            view = pane.view
+            view.pressed.connect(self._on_pressed)
+            view.moved.connect(self._on_moved)
+            view.released.connect(self._on_released)
+            view.double_clicked.connect(self._on_double_clicked)
+            view.left.connect(self._on_left)
+            view.key_wanted.connect(self._on_key_wanted)
+            view.key_pressed.connect(self._on_key_pressed)
+            view.key_released.connect(self._on_key_released)
+            view.focus_changed.connect(self._on_focus_changed)
+            view.resized.connect(self._on_resized)
+
+    def _lay_out(self) -> None:
+        for index, role in enumerate(Role):
+            self._splitter.addWidget(self.panes[role])
+            self._splitter.setStretchFactor(index, SHARES.get(role, 1))
+        self._splitter.setSizes([100 * SHARES.get(role, 0) for role in Role])
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self._splitter)

@@ -1,0 +1,120 @@
+"""The strokes that overlays and tools share: halos, nodes, handles, rings, tags."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPixmap, QPolygonF
+
+from app.style import colours
+from core.model.outline import Array
+
+HALO = QColor(255, 255, 255, 200)
+NODE = 4.0
+"""Half the side of a node's square, in pixels."""
+
+
+def pen(
+    colour: str | QColor, width: float = 1.5, style: Qt.PenStyle = Qt.PenStyle.SolidLine
+) -> QPen:
+    """Return a pen with round joins."""
+    return QPen(QColor(colour), width, style, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
+
+
+def polygon(points: Array) -> QPolygonF:
+    """Return (n, 2) pixels as a polygon."""
+    return QPolygonF([QPointF(x, y) for x, y in points])
+
+
+def draw_line(
+    painter: QPainter,
+    points: Array,
+    colour: str,
+    *,
+    closed: bool = False,
+    halo: bool = True,
+    style: Qt.PenStyle = Qt.PenStyle.SolidLine,
+    width: float = 1.5,
+) -> None:
+    """Draw a polyline (n, 2), on a light halo that shows it on any artwork."""
+    if len(points) < 2:
+        return
+    line = polygon(points)
+    draw = painter.drawPolygon if closed else painter.drawPolyline
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    if halo:
+        painter.setPen(pen(HALO, width + 2))
+        draw(line)
+    painter.setPen(pen(colour, width, style))
+    draw(line)
+
+
+def draw_nodes(
+    painter: QPainter,
+    centres: Array,
+    colour: str,
+    *,
+    smooth: bool = False,
+    selected: bool = False,
+    size: float = NODE,
+) -> None:
+    """Draw nodes (n, 2): squares for corners, discs where the curve passes smoothly.
+
+    They are stamped, on whole device pixels: sharp, and ten times as fast as stroking each.
+    """
+    ratio = painter.device().devicePixelRatioF()
+    fill = colours().selection if selected else "#ffffff"
+    stamp = _stamp(colour, fill, smooth, size, ratio)
+    corner = centres - stamp.width() / (2 * ratio)
+    for x, y in (np.round(corner * ratio) / ratio).tolist():
+        painter.drawPixmap(QPointF(x, y), stamp)
+
+
+@lru_cache(maxsize=64)
+def _stamp(line: str, fill: str, smooth: bool, size: float, ratio: float) -> QPixmap:
+    """Return the picture of one node, for a screen of this pixel ratio."""
+    side = 2 * math.ceil((size + 3) * ratio) + 1  # odd: the node's middle is a pixel's
+    pixmap = QPixmap(side, side)
+    pixmap.setDevicePixelRatio(ratio)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(pixmap)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    middle = side / (2 * ratio)
+    box = QRectF(middle - size, middle - size, 2 * size, 2 * size)
+    for ink, brush in ((pen(HALO, 3.6), Qt.BrushStyle.NoBrush), (pen(line, 1.6), QColor(fill))):
+        painter.setPen(ink)
+        painter.setBrush(brush)
+        (painter.drawEllipse if smooth else painter.drawRect)(box)
+    painter.end()
+    return pixmap
+
+
+def draw_ring(painter: QPainter, at: Array, radius: float, colour: str, width: float = 2.0) -> None:
+    """Draw a circle around a place."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(pen(HALO, width + 2))
+    painter.drawEllipse(QPointF(*at), radius, radius)
+    painter.setPen(pen(colour, width))
+    painter.drawEllipse(QPointF(*at), radius, radius)
+
+
+def draw_tag(painter: QPainter, at: QPointF, text: str, ground: str, ink: str) -> None:
+    """Draw a line of text on a rounded ground, centred on a point and kept inside the view."""
+    font = QFont(painter.font())
+    font.setBold(True)
+    metrics = QFontMetricsF(font)
+    view = QRectF(painter.viewport()).adjusted(6, 6, -6, -6)
+    words = metrics.elidedText(text, Qt.TextElideMode.ElideRight, view.width() - 20)
+    box = QRectF(0, 0, metrics.horizontalAdvance(words) + 16, metrics.height() + 6)
+    box.moveCenter(at)
+    box.moveLeft(min(max(box.left(), view.left()), view.right() - box.width()))
+    box.moveTop(min(max(box.top(), view.top()), view.bottom() - box.height()))
+    painter.setFont(font)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(QColor(ground))
+    painter.drawRoundedRect(box, box.height() / 2, box.height() / 2)
+    painter.setPen(QColor(ink))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, words)

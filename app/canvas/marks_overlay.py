@@ -1,0 +1,97 @@
+"""Marks: a dot on the outline, and its letter in a circle that stands off the shape."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter
+
+from app.canvas.ink import HALO, pen
+from app.canvas.overlay import Overlay
+from app.canvas.pins import NO_PINS, Pins
+from app.canvas.view import View
+from app.style import colours
+from core.model.outline import Array
+
+RADIUS = 9.5
+"""Of the circle around a letter, in pixels."""
+STALK = 21.0
+"""From the marked place to the middle of its letter."""
+DOT = 3.5
+
+
+class MarksOverlay(Overlay):
+    """The marks of one keyframe, or of an in-between."""
+
+    def __init__(self, view: View) -> None:
+        super().__init__(view)
+        self._labels: tuple[str, ...] = ()
+        self._pins = NO_PINS
+        self._selected: int | None = None
+        self._quiet = False
+
+    def show_marks(
+        self, labels: Sequence[str], pins: Pins, selected: int | None, *, quiet: bool = False
+    ) -> None:
+        """Show marks; ``quiet`` ones are only followed, not edited here."""
+        self._labels, self._pins = tuple(labels), pins
+        self._selected, self._quiet = selected, quiet
+        self.update()
+
+    def draw(self, painter: QPainter) -> None:
+        """Paint them, the selected one last."""
+        places = self.view.to_screen(self._pins.places)
+        letters = letter_centres(self.view, self._pins)
+        order = sorted(range(len(places)), key=lambda i: i == self._selected)
+        for i in order:
+            self._draw_mark(painter, places[i], letters[i], self._labels[i], i == self._selected)
+
+    def _draw_mark(
+        self, painter: QPainter, place: Array, letter: Array, label: str, selected: bool
+    ) -> None:
+        amber, ink = QColor(colours().mark), QColor(colours().on_mark)
+        if self._quiet:
+            painter.setOpacity(0.85)
+        painter.setPen(pen(HALO, 4.0))
+        painter.drawLine(QPointF(*place), QPointF(*letter))
+        painter.setPen(pen(ink, 1.5))
+        painter.drawLine(QPointF(*place), QPointF(*letter))
+        painter.setBrush(amber)
+        painter.drawEllipse(QPointF(*place), DOT, DOT)
+        if selected:
+            painter.setPen(pen(colours().selection, 3.0))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawEllipse(QPointF(*letter), RADIUS + 3.5, RADIUS + 3.5)
+            painter.setPen(pen(ink, 1.5))
+            painter.setBrush(amber)
+        painter.drawEllipse(QPointF(*letter), RADIUS, RADIUS)
+        font = painter.font()
+        font.setPixelSize(13 if len(label) == 1 else 10)
+        font.setBold(True)
+        painter.setFont(font)
+        box = QRectF(letter[0] - RADIUS, letter[1] - RADIUS, 2 * RADIUS, 2 * RADIUS)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
+        painter.setOpacity(1.0)
+
+
+def letter_centres(view: View, pins: Pins) -> Array:
+    """Return (k, 2) pixels of a view where the letters stand."""
+    mirror = np.sign(view.to_screen([1.0, 0.0]) - view.to_screen([0.0, 0.0]))[0]
+    return view.to_screen(pins.places) + STALK * pins.outward * [mirror, 1.0]
+
+
+def mark_at(view: View, pins: Pins, pixel: Array, reach: float) -> int | None:
+    """Return the mark whose letter or dot is at a pixel (2,) of a view; the dot counts first."""
+    if not len(pins.places):
+        return None
+    for centres, radius in (
+        (view.to_screen(pins.places), reach),
+        (letter_centres(view, pins), RADIUS + 2),
+    ):
+        away = np.hypot(*(centres - pixel).T)
+        nearest = int(np.argmin(away))
+        if away[nearest] <= radius:
+            return nearest
+    return None

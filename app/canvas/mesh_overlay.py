@@ -1,0 +1,74 @@
+"""The mesh over a shape: all edges as one curve, and the folded triangles filled."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QColor, QPainterPath, QPolygonF
+from PySide6.QtWidgets import QGraphicsPathItem
+
+from app.canvas.view import View
+from app.render.painter import colour
+from app.style import colours
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+
+LINE_ON_LIGHT, LINE_ON_DARK = "#2b3440", "#dde3ec"
+"""Opaque: translucent lines take several times as long to paint."""
+
+
+class MeshOverlay:
+    """Two items of a view, created once and updated for each frame."""
+
+    def __init__(self, view: View, z: float) -> None:
+        self._edges = pg.PlotCurveItem(connect="pairs", skipFiniteCheck=True, antialias=False)
+        self._edges.setSegmentedLineMode("on")
+        self._folds = QGraphicsPathItem()
+        self._triangles: Indices | None = None
+        self._pairs = np.empty(0, dtype=np.intp)
+        view.add_artwork(self._folds, z)
+        view.add_artwork(self._edges, z + 0.1)
+        self.hide()
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self._edges.hide()
+        self._folds.hide()
+
+    def show_mesh(self, triangles: Indices, positions: Array, fill: str) -> None:
+        """Show triangles (m, 3) at positions (n, 2), on a shape of this fill colour."""
+        if triangles is not self._triangles:
+            self._triangles, self._pairs = triangles, edges_of(triangles).ravel()
+        ends = positions[self._pairs]
+        light = not fill or colour(fill).lightnessF() > 0.45
+        pen = pg.mkPen(LINE_ON_LIGHT if light else LINE_ON_DARK, width=1)
+        self._edges.setData(ends[:, 0], ends[:, 1], pen=pen)
+        self._edges.show()
+        folded = positions[triangles[areas(triangles, positions) <= 0]]
+        self._folds.setVisible(len(folded) > 0)
+        if len(folded):
+            self._folds.setPath(_triangle_path(folded))
+            self._folds.setBrush(QColor(colours().error))
+            self._folds.setPen(pg.mkPen(colours().error, width=2))
+
+
+def edges_of(triangles: Indices) -> Indices:
+    """Return (e, 2) vertex indices of the edges of (m, 3) triangles, each once."""
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0)
+
+
+def areas(triangles: Indices, positions: Array) -> Array:
+    """Return (m,) twice the signed areas."""
+    a, b, c = (positions[triangles[:, i]] for i in range(3))
+    u, v = b - a, c - a
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def _triangle_path(corners: Array) -> QPainterPath:
+    path = QPainterPath()
+    for triangle in corners:
+        path.addPolygon(QPolygonF([QPointF(*corner) for corner in triangle]))
+        path.closeSubpath()
+    return path

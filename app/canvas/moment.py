@@ -1,0 +1,88 @@
+"""What the artist looks at: the current layer's span under the playhead, and how it stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from app.jobs.solver import SpanState
+from app.workspace import Workspace
+from core.model import Document, Layer
+from core.model.outline import Array
+from core.morph.scene import span_of
+
+if TYPE_CHECKING:
+    from core.morph.morph import Morph
+
+
+class Role(Enum):
+    """What a pane is for."""
+
+    SOURCE = "source"
+    IN_BETWEEN = "in-between"
+    TARGET = "target"
+    OVERLAY = "overlay"
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """One look at the workspace, taken once for all panes."""
+
+    document: Document
+    frame: float
+    layer: Layer | None
+    span: int = 0
+    t: float = 0.0
+    s: float = 0.0
+    """Progress in time and in shape."""
+    morph: Morph | None = None
+    state: SpanState = SpanState.NONE
+    stale: frozenset[int] = frozenset()
+    """Layers whose in-between on screen is not what the document says by now."""
+
+    @cached_property
+    def positions(self) -> Array | None:
+        """(n, 2) vertices of the current layer's mesh at this moment."""
+        return None if self.morph is None else self.morph.at(self.s)
+
+
+def moment_of(workspace: Workspace) -> Moment:
+    """Take a look."""
+    document, frame = workspace.session.document, workspace.playhead.frame
+    solver, layer = workspace.solver, workspace.selection.layer
+    stale = frozenset(
+        other.id
+        for other in document.layers
+        if other.spans and solver.state(other.id, other.span_at(frame)[0]) is not SpanState.SOLVED
+    )
+    if layer is None or not layer.spans:
+        return Moment(document, frame, layer, stale=stale)
+    span, t = layer.span_at(frame)
+    return Moment(
+        document,
+        frame,
+        layer,
+        span,
+        t,
+        layer.keyframes[span].easing(t),
+        solver.morph_of(span_of(layer, span)),
+        solver.state(layer.id, span),
+        stale,
+    )
+
+
+def edited_key(workspace: Workspace, role: Role) -> int | None:
+    """Return the keyframe of the current layer that the tools change in a pane, if any.
+
+    In the overlay it is the key under the playhead, or else the selected one.
+    """
+    layer = workspace.selection.layer
+    if layer is None or role is Role.IN_BETWEEN:
+        return None
+    if role is Role.OVERLAY:
+        here = layer.key_at(workspace.playhead.frame)
+        return workspace.selection.key if here is None else here
+    key = layer.span_at(workspace.playhead.frame)[0] + (role is Role.TARGET)
+    return key if key < len(layer.keyframes) else None

@@ -1,0 +1,55 @@
+"""Onion skin: the keyframes before and after, as tinted ghosts under what is being made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
+from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
+
+from app.canvas.artboard import EVERYWHERE
+from app.render.painter import outline_path
+from core.geometry.flatten import flatten
+from core.model import Outline
+
+FILL_ALPHA, LINE_ALPHA = 36, 210
+
+
+class OnionSkin(QGraphicsItem):
+    """Tinted outlines: a faint fill and a thin line, dashed for the later one."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._shown: tuple[tuple[Outline, str], ...] = ()
+        self._ghosts: list[tuple[QPainterPath, QColor, QPen]] = []
+
+    def show_outlines(self, outlines: Sequence[tuple[Outline, str]]) -> None:
+        """Show (outline, colour) pairs, in the order before, after."""
+        if self._shown == tuple(outlines):
+            return
+        self._shown = tuple(outlines)
+        styles = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
+        self._ghosts = []
+        for (outline, colour), style in zip(outlines, styles, strict=False):
+            path = outline_path([polyline.points for polyline in flatten(outline)])
+            fill, line = QColor(colour), QColor(colour)
+            fill.setAlpha(FILL_ALPHA)
+            line.setAlpha(LINE_ALPHA)
+            pen = QPen(line, 1.5, style)
+            pen.setCosmetic(True)
+            self._ghosts.append((path, fill, pen))
+        self.update()
+
+    def boundingRect(self) -> QRectF:
+        """Return everything."""
+        return EVERYWHERE
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
+    ) -> None:
+        """Paint the ghosts."""
+        for path, fill, pen in self._ghosts:
+            painter.setPen(pen)
+            painter.setBrush(fill)
+            painter.drawPath(path)

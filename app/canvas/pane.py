@@ -1,0 +1,235 @@
+"""A pane: a title that says what is seen, and a view with everything that is painted in it."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from app.canvas.artboard import Artboard
+from app.canvas.artwork import Artwork
+from app.canvas.camera import Camera
+from app.canvas.error_ring import ErrorRing, places_of
+from app.canvas.header import Header
+from app.canvas.invitation import Invitation
+from app.canvas.marks_overlay import MarksOverlay
+from app.canvas.mesh_overlay import MeshOverlay
+from app.canvas.moment import Moment, Role, edited_key
+from app.canvas.onion import OnionSkin
+from app.canvas.overlay import ToolOverlay
+from app.canvas.pins import NO_PINS, pins_between, pins_on_key
+from app.canvas.tools.tool import Tool
+from app.canvas.view import View
+from app.jobs.solver import SpanState
+from app.style import colours
+from app.workspace import Workspace
+from core.errors import MorphError
+from core.model import Keyframe
+from core.morph.scene import picture_at
+
+DIMMED = 0.22
+"""Opacity of the layers that are not being edited, in the panes of keys."""
+STALE = 0.55
+"""Opacity of an in-between that does not match the document yet."""
+
+
+class Pane(QWidget):
+    """Shows one side of a moment: a keyframe of the current layer, or the in-between of all."""
+
+    def __init__(self, role: Role, workspace: Workspace, camera: Camera, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.role = role
+        self._workspace = workspace
+        self._header, self.view = Header(self), View(self, camera)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self._header)
+        column.addWidget(self.view, 1)
+        self._board, self._onion, self.artwork = Artboard(), OnionSkin(), Artwork()
+        for z, item in enumerate((self._board, self._onion, self.artwork)):
+            self.view.add_artwork(item, z)
+        self._mesh = MeshOverlay(self.view, 5)
+        self._marks, self.tool_overlay = MarksOverlay(self.view), ToolOverlay(self.view)
+        self.error_ring, self._invitation = ErrorRing(self.view), Invitation(self.view)
+        overlays = (self._invitation, self._marks, self.tool_overlay, self.error_ring)
+        for z, item in enumerate(overlays):
+            self.view.add_overlay(item, 10 + z)
+
+    @property
+    def live(self) -> bool:
+        """Whether the pane follows the playhead within a span."""
+        return self.role in (Role.IN_BETWEEN, Role.OVERLAY)
+
+    # -- what tools ask ------------------------------------------------------------------------
+
+    @property
+    def key(self) -> int | None:
+        """Index of the keyframe that is edited here; None in the in-between."""
+        return edited_key(self._workspace, self.role)
+
+    @property
+    def keyframe(self) -> Keyframe | None:
+        """The keyframe that is edited here."""
+        layer, key = self._workspace.selection.layer, self.key
+        return None if layer is None or key is None else layer.keyframes[key]
+
+    @property
+    def tint(self) -> str:
+        """The colour of outlines edited here: that of the side they are on."""
+        key = self.key
+        layer = self._workspace.selection.layer
+        if layer is None or key is None:
+            return colours().accent
+        span, _ = layer.span_at(self._workspace.playhead.frame)
+        return colours().source if key <= span else colours().target
+
+    @property
+    def state(self) -> str:
+        """What the title says about being up to date; empty when there is nothing to say."""
+        return self._header.tag
+
+    def follow(self, tool: Tool) -> None:
+        """Show what the tool in hand has changed about itself."""
+        self.view.rest_cursor(tool.cursor)
+        self.tool_overlay.tool = tool
+        self.tool_overlay.update()
+        self._invitation.make_room(tool.busy)
+
+    def set_focused(self, focused: bool) -> None:
+        """Show whether the keys go here."""
+        self._header.set_focused(focused)
+
+    # -- what the canvas shows -----------------------------------------------------------------
+
+    def look(self, moment: Moment, error: MorphError | None) -> None:
+        """Show a moment, and the place of an error if there is one."""
+        self._name(moment)
+        self._board.show_board(moment.document.size, moment.document.background)
+        self._show_artwork(moment)
+        self._show_onion(moment)
+        self._show_mesh(moment)
+        self._show_marks(moment)
+        self._show_error(moment, error)
+        self._invitation.show_text(*self._invite(moment), moment.document.background)
+        self.view.update_all()
+
+    def _show_artwork(self, moment: Moment) -> None:
+        keyframe = None if self.live else self.keyframe
+        picture = picture_at(
+            moment.document,
+            moment.frame if keyframe is None else keyframe.frame,
+            self._workspace.solver.morph_of,
+        )
+        if self.live:
+            opacities = dict.fromkeys(moment.stale, STALE)
+            self.artwork.show_shapes(picture.shapes, opacities)
+        elif keyframe is None:
+            self.artwork.show_shapes((), {})
+        else:
+            assert moment.layer is not None
+            others = {s.layer_id: DIMMED for s in picture.shapes if s.layer_id != moment.layer.id}
+            self.artwork.show_shapes(picture.shapes, others)
+
+    def _show_onion(self, moment: Moment) -> None:
+        wanted = self._workspace.view.onion and not self._workspace.playhead.playing
+        if not self.live or not wanted or moment.layer is None or not moment.layer.spans:
+            self._onion.show_outlines(())
+            return
+        before, after = moment.layer.keyframes[moment.span : moment.span + 2]
+        self._onion.show_outlines(
+            ((before.outline, colours().source), (after.outline, colours().target))
+        )
+
+    def _show_mesh(self, moment: Moment) -> None:
+        if not self._workspace.view.mesh or moment.morph is None or moment.layer is None:
+            self._mesh.hide()
+            return
+        morph = moment.morph
+        ends = {Role.SOURCE: morph.rest, Role.TARGET: morph.target}
+        positions = ends.get(self.role, moment.positions)
+        self._mesh.show_mesh(morph.triangles, positions, moment.layer.style.fill)
+
+    def _show_marks(self, moment: Moment) -> None:
+        layer, keyframe = moment.layer, self.keyframe
+        selected = self._workspace.selection.mark
+        if not self._workspace.view.marks or layer is None:
+            self._marks.show_marks((), NO_PINS, None)
+        elif keyframe is not None:
+            self._marks.show_marks(layer.labels, pins_on_key(keyframe), selected)
+        elif self.role is Role.IN_BETWEEN and moment.morph is not None:
+            source = layer.keyframes[moment.span]
+            pins = pins_between(source, moment.morph, moment.positions)
+            self._marks.show_marks(layer.labels, pins, None, quiet=True)
+        else:
+            self._marks.show_marks((), NO_PINS, None)
+
+    def _show_error(self, moment: Moment, error: MorphError | None) -> None:
+        keyframe = self.keyframe
+        side = error.where.side if error else ""
+        if error is None or keyframe is None or (side and side != self._side(moment)):
+            self.error_ring.show_error(NO_PINS.places, "")
+        else:
+            self.error_ring.show_error(places_of(error.where, keyframe), error.what)
+
+    def _side(self, moment: Moment) -> str:
+        """Return which side of the span the key shown here is on."""
+        assert self.key is not None
+        return "source" if self.key <= moment.span else "target"
+
+    # -- words ---------------------------------------------------------------------------------
+
+    @property
+    def title(self) -> str:
+        """What the pane shows, in words."""
+        return self.view.accessibleName()
+
+    def _name(self, moment: Moment) -> None:
+        """Set the title: which key or which in-between, and whether it is up to date."""
+        spanned = moment.layer is not None and moment.layer.spans > 0
+        live = self.live
+        name = {
+            Role.SOURCE: self.tr("Source"),
+            Role.IN_BETWEEN: self.tr("In-between"),
+            Role.TARGET: self.tr("Target"),
+            Role.OVERLAY: self.tr("Overlay"),
+        }[self.role]
+        frame, keyframe = self.tr("frame {frame}"), self.keyframe
+        details = []
+        if live:
+            details.append(frame.format(frame=f"{moment.frame:.5g}"))
+        if live and spanned:
+            details.append(self.tr("t {t}").format(t=f"{moment.t:.2f}"))
+        if keyframe and self.role is Role.OVERLAY:
+            details.append(self.tr("editing frame {frame}").format(frame=keyframe.frame))
+        elif keyframe:
+            details.append(frame.format(frame=keyframe.frame))
+        tag = self._state_text(moment) if live and spanned else ""
+        tints = {Role.SOURCE: colours().source, Role.TARGET: colours().target}
+        tint = tints.get(self.role, colours().muted)
+        self._header.show_title(name, " · ".join(details), tag, tint)
+        self.view.setAccessibleName(" · ".join([name, *details]))
+
+    def _state_text(self, moment: Moment) -> str:
+        return {
+            SpanState.SOLVED: "",
+            SpanState.SOLVING: self.tr("updating…"),
+            SpanState.FAILED: self.tr("not solved"),
+            SpanState.NONE: self.tr("not up to date"),
+        }[moment.state]
+
+    def _invite(self, moment: Moment) -> tuple[str, str]:
+        """Return what an empty pane says."""
+        nothing = ("", "")
+        draw = self.tr("P pen · B freehand — or drop an SVG")
+        if moment.layer is None:
+            return {
+                Role.SOURCE: (self.tr("Draw the source outline here"), draw),
+                Role.OVERLAY: (self.tr("Draw the source outline here"), draw),
+                Role.IN_BETWEEN: (
+                    self.tr("In-betweens appear here"),
+                    self.tr("as soon as there are two outlines"),
+                ),
+                Role.TARGET: (self.tr("Then the target"), self.tr("the pose to arrive at")),
+            }[self.role]
+        if self.role is Role.TARGET and self.key is None:
+            return self.tr("Draw or import the target here"), draw
+        return nothing

@@ -1,0 +1,81 @@
+"""Where a newly drawn outline goes: a new layer, a new key, or in place of a key's outline."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from app.canvas.moment import Role
+from app.canvas.tools import edits as composed
+from app.canvas.tools.tool import Tool
+from app.workspace import Workspace
+from core.model import Outline, Ring, edits
+
+if TYPE_CHECKING:
+    from app.canvas.pane import Pane
+
+TARGET_AFTER = 24
+"""Frames from the last key to a target that is drawn for it."""
+
+
+class DrawingTool(Tool):
+    """What the pen and freehand share: they end with a ring, and it finds its place."""
+
+    def __init__(self, workspace: Workspace, parent: QObject) -> None:
+        super().__init__(workspace, parent)
+        self._pane: Pane | None = None
+        """The pane under the mouse, or the one that is drawn in."""
+
+    def may_draw(self, pane: Pane) -> bool:
+        """Return whether an outline may be drawn in a pane, or say why not."""
+        makes_layer = self.selection.layer is None or pane.role is Role.IN_BETWEEN
+        return makes_layer or self.unlocked()
+
+    def finish(self, ring: Ring, pane: Pane) -> None:
+        """Put a drawn ring where the pane says, as one undo step."""
+        outline, layer = Outline((ring,)), self.selection.layer
+        frame = self.new_frame(pane)
+        if layer is None or pane.role is Role.IN_BETWEEN:
+            self._add_layer(outline, frame)
+            return
+        key = layer.key_at(frame)
+        if key is not None:
+            text = self.tr("Draw outline")
+            self.session.apply(text, composed.redraw_key, layer.id, key, outline)
+        else:
+            text = self.tr("Draw keyframe")
+            self.session.apply(text, composed.draw_key, layer.id, frame, outline)
+            key = self.session.document.layer(layer.id).key_at(frame)
+        if key is not None:
+            self.selection.select_key(layer.id, key)
+
+    def new_frame(self, pane: Pane) -> int:
+        """Return the frame of the key that a drawing in a pane makes or changes."""
+        layer, keyframe = self.selection.layer, pane.keyframe
+        now = max(round(self.workspace.playhead.frame), 1)
+        if layer is None or pane.role in (Role.IN_BETWEEN, Role.OVERLAY):
+            return now
+        return keyframe.frame if keyframe else layer.keyframes[-1].frame + TARGET_AFTER
+
+    def outcome(self, pane: Pane) -> str:
+        """Say what a drawing in a pane will become."""
+        layer, frame = self.selection.layer, self.new_frame(pane)
+        if layer is None or pane.role is Role.IN_BETWEEN:
+            return self.tr("a new layer")
+        if layer.key_at(frame) is not None:
+            text = self.tr("a new outline for frame {frame} of “{name}”")
+        else:
+            text = self.tr("a new key at frame {frame} of “{name}”")
+        return text.format(frame=frame, name=layer.name)
+
+    def _add_layer(self, outline: Outline, frame: int) -> None:
+        names = {layer.name for layer in self.session.document.layers}
+        number = next(n for n in range(1, len(names) + 2) if self._layer_name(n) not in names)
+        text = self.tr("Draw layer")
+        name = self._layer_name(number)
+        if self.session.apply(text, edits.add_layer, name, frame, outline):
+            self.selection.select_layer(self.session.document.layers[-1].id)
+
+    def _layer_name(self, number: int) -> str:
+        return self.tr("Shape {number}").format(number=number)

@@ -1,0 +1,103 @@
+"""Edits that a tool composes from those of the model; each again Document → Document."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from core.geometry.places import nearest_place, tracks
+from core.model import Document, Keyframe, Layer, Outline, RingPoint, edits
+from core.model.outline import Array
+from core.morph.suggest import mate
+
+Nodes = frozenset[tuple[int, int]]
+"""(ring, node) pairs."""
+
+
+def by_ring(nodes: Iterable[tuple[int, int]]) -> dict[int, list[int]]:
+    """Group (ring, node) pairs by ring."""
+    rings: dict[int, list[int]] = {}
+    for ring, node in sorted(nodes):
+        rings.setdefault(ring, []).append(node)
+    return rings
+
+
+def move_nodes(document: Document, layer_id: int, key: int, nodes: Nodes, by: Array) -> Document:
+    """Move nodes of any rings by an offset (2,)."""
+    for ring, members in by_ring(nodes).items():
+        document = edits.move_nodes(document, layer_id, key, ring, members, by)
+    return document
+
+
+def delete_nodes(document: Document, layer_id: int, key: int, nodes: Nodes) -> Document:
+    """Delete nodes of any rings; all or none."""
+    for ring, members in by_ring(nodes).items():
+        document = edits.delete_nodes(document, layer_id, key, ring, members)
+    return document
+
+
+def place_mark(document: Document, layer_id: int, key: int, place: RingPoint) -> Document:
+    """Add a mark on one keyframe, with proposed mates on all others."""
+    layer = document.layer(layer_id)
+    return edits.add_mark(document, layer_id, mates(layer, key, place))
+
+
+def mates(layer: Layer, key: int, place: RingPoint) -> list[RingPoint]:
+    """Return a place on every keyframe for a place on one, each proposed from its neighbour."""
+    keys = layer.keyframes
+    places = {key: place}
+    onward = [(k - 1, k) for k in range(key + 1, len(keys))]
+    back = [(k + 1, k) for k in range(key - 1, -1, -1)]
+    for known, new in (*onward, *back):
+        pairs = list(zip(keys[known].marks, keys[new].marks, strict=True))
+        places[new] = mate(keys[known].outline, keys[new].outline, places[known], pairs)
+    return [places[k] for k in range(len(keys))]
+
+
+def slide_mark(document: Document, layer_id: int, key: int, mark: int, length: float) -> Document:
+    """Move a mark along its outline by a length, forward or (negative) back."""
+    keyframe = document.layer(layer_id).keyframes[key]
+    place = keyframe.marks[mark]
+    track = tracks(keyframe.outline)[place.ring]
+    at = track.place_of(track.length_of(place.at) + length)
+    return edits.move_mark(document, layer_id, key, mark, RingPoint(place.ring, at))
+
+
+def redraw_key(document: Document, layer_id: int, key: int, outline: Outline) -> Document:
+    """Give a keyframe a newly drawn outline; its marks go to the nearest places on it."""
+    old = document.layer(layer_id).keyframes[key]
+    near = [nearest_place(outline, old.outline.position(mark))[0] for mark in old.marks]
+    if not _in_order(old.marks, near):  # drawn elsewhere: the nearest places would shuffle them
+        near = _matched(old, outline)
+    return edits.replace_outline(document, layer_id, key, outline, near)
+
+
+def draw_key(document: Document, layer_id: int, frame: int, outline: Outline) -> Document:
+    """Add a keyframe with a newly drawn outline; its marks are proposed from a neighbour."""
+    keys = document.layer(layer_id).keyframes
+    neighbour = next((key for key in reversed(keys) if key.frame < frame), keys[0])
+    marks = tuple(_matched(neighbour, outline))
+    return edits.insert_keyframe(document, layer_id, Keyframe(frame, outline, marks))
+
+
+def _matched(key: Keyframe, outline: Outline) -> list[RingPoint]:
+    """Return the mates of a keyframe's marks on another outline, each after those before it."""
+    pairs: list[tuple[RingPoint, RingPoint]] = []
+    for mark in key.marks:
+        pairs.append((mark, mate(key.outline, outline, mark, pairs)))
+    return [place for _, place in pairs]
+
+
+def _in_order(before: Sequence[RingPoint], after: Sequence[RingPoint]) -> bool:
+    """Whether places follow each other as those before did, one way round or the other."""
+    for ring in {place.ring for place in before}:
+        members = [i for i, place in enumerate(before) if place.ring == ring]
+        members.sort(key=lambda i: before[i].at)
+        at = np.array([after[i].at for i in members])
+        steps = np.roll(at, -1) - at
+        same_ring = len({after[i].ring for i in members}) == 1
+        around = len(at) < 2 or (steps.all() and 1 in (np.sum(steps < 0), np.sum(steps > 0)))
+        if not (same_ring and around):
+            return False
+    return True

@@ -1,0 +1,200 @@
+"""What every tool is: how clicks, drags and keys reach it, and what it may ask."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QPainter
+
+from app.canvas.pointer import DRAG_DISTANCE, Pointer
+from app.workspace import Workspace
+from core.model import Layer
+from core.model.outline import Array
+
+if TYPE_CHECKING:
+    from app.canvas.pane import Pane
+
+Command = Callable[[], None]
+
+STEP, LARGE_STEP = 1.0, 10.0
+"""Document units that an arrow key moves, without and with Shift."""
+ARROWS = {
+    Qt.Key.Key_Left: (-1.0, 0.0),
+    Qt.Key.Key_Right: (1.0, 0.0),
+    Qt.Key.Key_Up: (0.0, -1.0),
+    Qt.Key.Key_Down: (0.0, 1.0),
+}
+
+
+class Gesture(Protocol):
+    """What goes on between press and release; it begins once the mouse has really moved."""
+
+    text: str
+    """Names the undo step; empty when the gesture itself changes nothing."""
+
+    def move(self, pointer: Pointer) -> None:
+        """Follow the mouse."""
+
+    def end(self, pointer: Pointer) -> None:
+        """Finish at the release."""
+
+
+class Tool(QObject):
+    """A tool overrides what it needs of ``hover`` to ``leave``.
+
+    A gesture with a text runs inside one session drag: every edit it applies starts from the
+    document at the press, all of it is one undo step, and Esc takes it back.
+    """
+
+    name = ""
+    cursor = Qt.CursorShape.ArrowCursor
+
+    def __init__(self, workspace: Workspace, parent: QObject) -> None:
+        super().__init__(parent)
+        self.workspace = workspace
+        self.session, self.selection = workspace.session, workspace.selection
+        self.notice = ""
+        """Said instead of the advice until the next press: why something was refused."""
+        self._gesture: Gesture | None = None
+        self._pressed: Pointer | None = None
+        self._last: Pointer | None = None
+        self._moving = False
+        self._nudged = np.zeros(2)
+
+    # -- for subclasses ------------------------------------------------------------------------
+
+    def hover(self, pointer: Pointer) -> None:
+        """Follow the mouse while no button is down."""
+
+    def grab(self, pointer: Pointer) -> Gesture | None:
+        """Return what a drag from here does; selecting what is pressed belongs here, too."""
+
+    def click(self, pointer: Pointer) -> None:
+        """Do what a click does, at the release of a press that did not move."""
+
+    def double_click(self, pointer: Pointer) -> None:
+        """Do what the second press of a double click does."""
+
+    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Command | None:
+        """Return what a key does now; None leaves it to the window's shortcuts."""
+
+    def advice(self) -> str:
+        """Say what the next click does."""
+        return ""
+
+    def paint(self, painter: QPainter, pane: Pane) -> None:
+        """Paint handles and the like, in pixels of the pane's view."""
+
+    def leave(self) -> None:
+        """Forget what was under the mouse."""
+        self._last = None
+
+    # -- for the canvas ------------------------------------------------------------------------
+
+    @property
+    def busy(self) -> bool:
+        """Whether Esc has something to abandon."""
+        return self._gesture is not None
+
+    @property
+    def hint(self) -> str:
+        """What the status bar says."""
+        return self.notice or self.advice()
+
+    def press(self, pointer: Pointer) -> None:
+        """Take a press of the left button."""
+        self.notice = ""
+        self._pressed, self._moving = pointer, False
+        self._gesture = self.grab(pointer)
+
+    def move(self, pointer: Pointer) -> None:
+        """Take a move, with or without the button down."""
+        self._last = pointer
+        if self._pressed is None:
+            self.hover(pointer)
+        elif self._gesture is not None and (self._moving or self._far(pointer)):
+            if not self._moving and self._gesture.text:
+                self.session.begin(self._gesture.text)
+            self._moving = True
+            self._gesture.move(pointer)
+
+    def release(self, pointer: Pointer) -> None:
+        """Take a release of the left button."""
+        if self._pressed is None:
+            return
+        gesture, self._gesture, self._pressed = self._gesture, None, None
+        if gesture is not None and self._moving:
+            gesture.end(pointer)
+            if gesture.text:
+                self.session.commit()
+        else:
+            self.click(pointer)
+        self.hover(pointer)
+
+    def abandon(self) -> None:
+        """Take back the gesture under way."""
+        if self._gesture is not None and self._gesture.text and self._moving:
+            self.session.abandon()
+        self._gesture = self._pressed = None
+
+    def put_away(self) -> None:
+        """Stop, because another tool is taken; nothing that was drawn may be lost."""
+        self.abandon()
+        self.leave()
+        self.notice = ""
+
+    def look_again(self) -> None:
+        """Find out what is under the resting mouse, after the document changed beneath it."""
+        if self._last is not None and self._pressed is None:
+            self.hover(self._last)
+
+    def key_released(self) -> None:
+        """End what a held key did, as one undo step."""
+        if self._gesture is None:
+            self.session.commit()
+
+    # -- shared --------------------------------------------------------------------------------
+
+    def editable(self, pane: Pane) -> Layer | None:
+        """Return the current layer, with the key of this pane selected, if it may be edited."""
+        layer = self.selection.layer
+        if layer is None or pane.key is None or not self.unlocked():
+            return None
+        self.selection.select_key(layer.id, pane.key)
+        return layer
+
+    def unlocked(self) -> bool:
+        """Return whether the current layer may be edited, or say why not."""
+        layer = self.selection.layer
+        if layer is None or (layer.visible and not layer.locked):
+            return True
+        state = self.tr("locked") if layer.locked else self.tr("hidden")
+        refusal = self.tr("The layer “{name}” is {state}: change that in the layers panel first")
+        self.notice = refusal.format(name=layer.name, state=state)
+        return False
+
+    def nudge(self, text: str, step: Array, edit: Callable[[Array], object]) -> None:
+        """Move by one more step; ``edit`` applies the sum. A held key is one undo step."""
+        if not self.session.dragging:
+            self.session.begin(text)
+            self._nudged = np.zeros(2)
+        self._nudged = self._nudged + step
+        edit(self._nudged)
+
+    def _far(self, pointer: Pointer) -> bool:
+        assert self._pressed is not None
+        distance = np.hypot(*(pointer.position - self._pressed.position))
+        return bool(distance >= DRAG_DISTANCE * pointer.pixel)
+
+
+def arrow_step(key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Array | None:
+    """Return the offset (2,) that an arrow key asks for; None for other keys."""
+    if key not in ARROWS or modifiers & ~(
+        Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
+    ):
+        return None
+    size = LARGE_STEP if modifiers & Qt.KeyboardModifier.ShiftModifier else STEP
+    return size * np.array(ARROWS[key])
