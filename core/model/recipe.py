@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Method = Literal["arap", "linear"]
+Method = Literal["arap", "plain arap", "linear"]
 Material = Literal["symmetric-dirichlet", "st-venant-kirchhoff"]
 
 
@@ -14,7 +14,8 @@ class Recipe:
     """Settings of the mapping and of the in-betweens."""
 
     method: Method = "arap"
-    """How in-betweens are made: as rigidly as possible, or on straight vertex paths."""
+    """How in-betweens are made: as rigidly as possible; the same in the paper's plain form; or on
+    straight vertex paths."""
     density: int = 128
     """Boundary vertices to aim for: the outline's edges are split to perimeter / density."""
     material: Material = "symmetric-dirichlet"

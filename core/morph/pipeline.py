@@ -13,13 +13,13 @@ from core.fem.elements import Elements
 from core.geometry.flatten import flatten
 from core.geometry.places import tracks
 from core.geometry.polyline import arc_lengths, nearest_length
-from core.geometry.triangulation import Mesh, split_chords, triangulate
+from core.geometry.triangulation import Indices, Mesh, split_chords, triangulate
 from core.geometry.validate import CleanOutline, clean
 from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
 from core.morph.boundary import BoundaryPair, MatchedRing, correspond
-from core.morph.inbetween import METHODS
+from core.morph.inbetween import METHODS, Interpolate
 from core.morph.morph import Morph
 from core.morph.placement import Placed, place
 from core.morph.quality import distortion, folds, smallest_angle
@@ -79,11 +79,17 @@ def solve_outlines(
     goal = target_origin + target_unit * placed.target
     b = mesh.boundary_size
     rest[:b], goal[:b] = np.concatenate([pair.source for pair in pairs]), drawn
-    method = METHODS[recipe.method]
-    inbetween = method(mesh.points, (goal - origin) / unit, mesh.triangles)
+    inbetween = _inbetween(recipe, mesh.points, (goal - origin) / unit, mesh.triangles)
     clock.stop()
     report = _report(mesh, placed, rest, goal, ends, len(mesh.points) - len(coarse.points), clock)
     return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, origin, unit)
+
+
+def _inbetween(recipe: Recipe, rest: Array, target: Array, triangles: Indices) -> Interpolate:
+    """Prepare the recipe's method; on a folded map Sᵗ does not exist, and the plain form serves."""
+    folded = len(folds(target, triangles)) > 0
+    method = "plain arap" if recipe.method == "arap" and folded else recipe.method
+    return METHODS[method](rest, target, triangles)
 
 
 class _Clock:

@@ -17,7 +17,7 @@ import core
 from core.fem.elements import Elements
 from core.geometry.polyline import signed_area
 from core.geometry.rotation import polar
-from core.morph.inbetween import RigidInbetween
+from core.morph.inbetween import Rigid
 from core.morph.quality import folds
 from tests.benchmarks.sheet import Panel, application, draw_row, save, stack
 from tests.core.shapes import limb, rotation
@@ -81,7 +81,7 @@ def figure_3_angles() -> list[list[Panel]]:
     """A limb that curls through more than a full turn: principal angles against unwrapped ones."""
     source, target = (limb(bend, 40, 12, 0.5, curl=2) for bend in (0.0, 8.5))
     morph = core.solve(source, target, [(0, 0), (39, 39), (40, 40), (79, 79)])
-    principal = RigidInbetween(morph.rest, morph.target, morph.triangles)
+    principal = Rigid(morph.rest, morph.target, morph.triangles)
     elements = Elements.of(morph.rest, morph.triangles)
     principal.theta = polar(elements.deformation_gradients(morph.target))[0]
     return [

@@ -16,7 +16,7 @@ import numpy as np
 
 import core
 from core.geometry.rotation import rotate
-from core.morph.inbetween import RigidInbetween
+from core.morph.inbetween import PlainRigid
 from tests.core.shapes import limb
 
 PAPER_CORRESPONDENCE, PAPER_FRAME = 256.0, 42.0
@@ -51,14 +51,14 @@ def measure(density: int, repeats: int) -> tuple[core.Morph, dict[str, float], d
 def frame_parts(morph: core.Morph, repeats: int) -> dict[str, float]:
     """Return ms of a frame: its ideal gradients, its load, the bare back-substitution, and all."""
     frame = morph.inbetween
-    assert isinstance(frame, RigidInbetween)
+    assert isinstance(frame, PlainRigid)
     ideal = frame.ideal(0.37)
-    load = frame.load(ideal)
+    load = frame.fit.load(ideal)
     return {
         "ideal gradients": milliseconds(lambda: frame.ideal(0.37), repeats),
         "  of that, turning": milliseconds(lambda: rotate(frame.theta, frame.stretch), repeats),
-        "load": milliseconds(lambda: frame.load(ideal), repeats),
-        "back-substitution": milliseconds(lambda: frame.solve(load), repeats),
+        "load": milliseconds(lambda: frame.fit.load(ideal), repeats),
+        "back-substitution": milliseconds(lambda: frame.fit.solve(load), repeats),
         "frame": milliseconds(lambda: morph.at(0.37), repeats),
     }
 

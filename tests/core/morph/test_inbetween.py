@@ -15,17 +15,21 @@ def size(points):
     return np.hypot(*np.ptp(points, axis=0))
 
 
+GROWTH = {"arap": lambda t, k: k**t, "plain arap": lambda t, k: 1 - t + t * k}
+
+
+@pytest.mark.parametrize("method", GROWTH)
 @settings(max_examples=25, deadline=None)
 @given(star_shaped(), st.floats(-3, 3), st.floats(0.3, 3), st.floats(-50, 50))
-def test_a_similarity_is_reproduced_at_every_t(points, angle, scale, shift):
+def test_a_similarity_is_reproduced_at_every_t(method, points, angle, scale, shift):
     M = scale * rotation(angle)
     target = points @ M.T + shift
     marks = [(0, 0), (2, 2)]
-    morph = core.solve(points, target, marks)
+    morph = core.solve(points, target, marks, recipe=core.Recipe(method=method))
     centre = morph.at(0.0).T @ _mass(morph)
     goal = M @ centre + shift
     for t in TIMES:
-        blend = rotation(t * angle) * (1 - t + t * scale)
+        blend = rotation(t * angle) * GROWTH[method](t, scale)
         expected = (morph.rest - centre) @ blend.T + (1 - t) * centre + t * goal
         assert np.abs(morph.at(t) - expected).max() < 1e-9 * (size(target) + size(points) + 50)
 
@@ -39,7 +43,7 @@ def _mass(morph):
     return mass / mass.sum()
 
 
-@pytest.mark.parametrize("method", ["arap", "linear"])
+@pytest.mark.parametrize("method", ["arap", "plain arap", "linear"])
 def test_both_ends_are_exactly_what_was_drawn(method):
     source, target = limb(0.0) + 300, limb(2.5, n=11) * 7 - 40
     morph = core.solve(source, target, [(0, 0), (15, 10)], recipe=core.Recipe(method=method))
