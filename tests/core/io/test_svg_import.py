@@ -230,6 +230,7 @@ def test_uses_are_placed(href: str) -> None:
         ('<circle r="3" fill="url(#g)"/>', "Gradients"),
         ('<path id="lash" fill="none" stroke="red" d="M0 0 9 0 9 9"/>', "“lash” is an open line"),
         ('<path id="p" d="h5"/>', "“p” is no path"),
+        ('<path id="far" d="M0 0L1e999 0L0 9Z"/>', "“far” cannot be understood"),
         ('<line id="l" x2="5" y2="5" stroke="red"/>', "“l” has no area"),
     ],
 )

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from svgelements import Color, Shape
 
 PIXELS_PER_INCH = 96
+BROKEN = (ValueError, ArithmeticError, LookupError, AttributeError, TypeError)
+"""What the parser raises on data that makes no sense."""
 
 
 def read(data: bytes, name: str, warn: Warn) -> list[Part]:
@@ -27,11 +29,11 @@ def read(data: bytes, name: str, warn: Warn) -> list[Part]:
             io.BytesIO(survey(data, warn)), reify=False, ppi=PIXELS_PER_INCH
         )
         shapes = [e for e in drawing.elements() if isinstance(e, svgelements.Shape)]
-        parts = [part for shape in shapes if _visible(shape) for part in _parts(shape, warn)]
     except RecursionError as error:
         raise FileError("The drawing is nested too deeply.") from error
-    except (ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
+    except BROKEN as error:
         raise FileError(f"The drawing cannot be understood ({error}).") from error
+    parts = [part for shape in shapes if _visible(shape) for part in _parts(shape, warn)]
     if sum(len(ring) for part in parts for ring in part.outline.rings) > MAX_NODES:
         raise FileError(f"The drawing has more than {MAX_NODES} nodes.")
     return uniquely_named(parts)
@@ -41,9 +43,13 @@ def _parts(shape: Shape, warn: Warn) -> list[Part]:
     from svgelements import Path
 
     name = shape.values["attributes"].get(NAME, type(shape).__name__.lower())
-    path = Path(shape)
-    rings, opened = rings_of(path)
-    style = _style(path, warn)
+    try:
+        path = Path(shape)
+        rings, opened = rings_of(path)
+        style = _style(path)
+    except BROKEN as error:
+        warn(f"“{name}” cannot be understood and is left out ({error}).")
+        return []
     if not rings:
         warn(f"“{name}” has no area and is left out.")
         return []
@@ -57,7 +63,7 @@ def _visible(shape: Shape) -> bool:
     return shape.values.get("visibility", "visible") == "visible"
 
 
-def _style(path: Any, warn: Warn) -> Style | None:
+def _style(path: Any) -> Style | None:
     """Return how a reified path is painted; None for a shape that is not painted at all."""
     opacity = path.values.get("opacity", 1)
     fill, stroke = _colour(path.fill, opacity), _colour(path.stroke, opacity)

@@ -108,10 +108,17 @@ def _name_shapes(root: Element) -> None:
 
 
 def _drop_broken_paths(root: Element, warn: Warn) -> None:
-    """Empty the paths that begin nowhere; the parser would give up on the whole drawing."""
+    """Empty the paths on which the parser would give up the whole drawing."""
+    from svgelements import Path
+
     for element in root.iter():
-        data = element.get("d", "").lstrip()
-        if _tag(element) == "path" and data and data[0] not in "Mm":
+        if _tag(element) != "path":
+            continue
+        try:
+            Path(element.get("d", ""))
+        except ValueError:
+            pass  # it is drawn up to the mistake, as SVG asks
+        except (ArithmeticError, LookupError, AttributeError, TypeError):
             warn(f"“{element.get(NAME)}” is no path and is left out.")
             element.set("d", "")
 
