@@ -154,7 +154,7 @@ def _theme(theme: str, text: str) -> Entry:
     )
 
 
-def _timing(preset: str) -> Entry:
+def _easing(preset: str) -> Entry:
     def is_on(d: Desk) -> bool:
         layer = d.selection.layer
         if layer is None or not layer.spans:
@@ -162,12 +162,12 @@ def _timing(preset: str) -> Entry:
         return layer.keyframes[layer.span_at(d.playhead.frame)[0]].easing == PRESETS[preset]
 
     return Entry(
-        f"timing-{preset}",
+        f"easing-{preset}",
         preset.capitalize(),
         lambda d: d.commands.set_easing(preset),
         when=_span,
         on=is_on,
-        group="timing",
+        group="easing",
     )
 
 
@@ -178,6 +178,14 @@ def _state(name: str, text: str) -> Entry:
     return Entry(
         f"layer-{name}", text, lambda d: d.commands.toggle_layer(name), when=_layer, on=is_on
     )
+
+
+def _draw_key(d: Desk) -> None:
+    """Take a drawing tool where what is drawn becomes the key under the playhead."""
+    d.playhead.stop()
+    d.view.update(layout="overlay")
+    if d.window.tool not in ("pen", "freehand"):
+        d.canvas.set_tool("pen")
 
 
 def _undo_title(d: Desk) -> str:
@@ -249,9 +257,10 @@ ENTRIES: tuple[Entry, ...] = (
 
     Entry("insert-key", "&Insert keyframe here", lambda d: d.commands.insert_keyframe(),
           ("F6", "K"), "keyframe", _free_frame),
+    Entry("draw-key", "D&raw keyframe here", _draw_key, ("F7",), "blank-keyframe", _layer),
     Entry("remove-key", "&Delete keyframe", lambda d: d.commands.remove_keyframe(),
           ("Shift+Del",), "delete", _span),
-    *(_timing(preset) for preset in PRESETS),
+    *(_easing(preset) for preset in PRESETS),
 
     Entry("remove-mark", "&Remove mark", lambda d: d.commands.remove_mark(), (), "delete", _mark),
     Entry("remove-marks", "Remove &all marks", lambda d: d.commands.remove_all_marks(),

@@ -48,7 +48,7 @@ class Commands(QObject):
         self._session.apply(
             self.tr("Delete nodes"),
             delete_nodes,
-            self._layer().id,
+            self._unlocked().id,
             self._selection.key,
             self._selection.nodes,
         )
@@ -76,7 +76,7 @@ class Commands(QObject):
 
     def remove_layer(self) -> None:
         """Delete the current layer."""
-        self._session.apply(self.tr("Delete layer"), remove_layer, self._layer().id)
+        self._session.apply(self.tr("Delete layer"), remove_layer, self._unlocked().id)
 
     def move_layer(self, by: int) -> None:
         """Move the current layer up in the stack, or down if negative."""
@@ -109,36 +109,36 @@ class Commands(QObject):
 
     def insert_keyframe(self) -> None:
         """Make what is on screen at the playhead a keyframe."""
-        layer, frame = self._layer(), round(self._playhead.frame)
+        layer, frame = self._unlocked(), round(self._playhead.frame)
         key = keyframe_at(layer, frame, self._solver.morph_of)
         if self._session.apply(self.tr("Insert keyframe"), insert_keyframe, layer.id, key):
             self._select_key_at(layer.id, frame)
 
     def remove_keyframe(self) -> None:
         """Delete the keyframe under the playhead, or else the selected one."""
-        layer = self._layer()
+        layer = self._unlocked()
         here = layer.key_at(self._playhead.frame)
         key = self._selection.key if here is None else here
         self._session.apply(self.tr("Delete keyframe"), remove_keyframe, layer.id, key)
 
     def set_easing(self, preset: str) -> None:
         """Set the timing of the span under the playhead."""
-        layer = self._layer()
+        layer = self._unlocked()
         key, _ = layer.span_at(self._playhead.frame)
-        self._session.apply(self.tr("Set timing"), set_easing, layer.id, key, PRESETS[preset])
+        self._session.apply(self.tr("Change easing"), set_easing, layer.id, key, PRESETS[preset])
 
     # -- marks ---------------------------------------------------------------------------------
 
     def remove_mark(self) -> None:
         """Remove the selected mark."""
-        layer, mark = self._layer(), self._selection.mark
+        layer, mark = self._unlocked(), self._selection.mark
         if mark is not None:
             text = self.tr("Remove mark {letter}").format(letter=layer.labels[mark])
             self._session.apply(text, remove_marks, layer.id, [mark])
 
     def remove_all_marks(self) -> None:
         """Remove every mark of the current layer."""
-        layer = self._layer()
+        layer = self._unlocked()
         marks = range(len(layer.labels))
         self._session.apply(self.tr("Remove all marks"), remove_marks, layer.id, marks)
 
@@ -148,6 +148,15 @@ class Commands(QObject):
         layer = self._selection.layer
         if layer is None:
             raise EditError("There is no layer yet.", hint="Draw an outline, or import one.")
+        return layer
+
+    def _unlocked(self) -> Layer:
+        layer = self._layer()
+        if layer.locked:
+            raise EditError(
+                self.tr("Layer “{name}” is locked.").format(name=layer.name),
+                hint=self.tr("Unlock it in the Layer menu to change it."),
+            )
         return layer
 
     def _index(self, layer: Layer) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF
@@ -11,8 +13,10 @@ from PySide6.QtWidgets import QGraphicsPathItem
 from app.canvas.view import View
 from app.render.painter import colour
 from app.style import colours
-from core.geometry.triangulation import Indices
 from core.model.outline import Array
+
+if TYPE_CHECKING:
+    from core.geometry.triangulation import Indices
 
 LINE_ON_LIGHT, LINE_ON_DARK = "#2b3440", "#dde3ec"
 """Opaque: translucent lines take several times as long to paint."""

@@ -42,18 +42,19 @@ class Files(QObject):
 
     # -- projects ------------------------------------------------------------------------------
 
-    def new(self) -> None:
-        """Start an empty project."""
-        if self.may_leave():
-            self._session.replace(Document())
+    def new(self) -> bool:
+        """Start an empty project; return whether the artist agreed."""
+        if not self.may_leave():
+            return False
+        self._session.replace(Document())
+        return True
 
-    def open(self) -> None:
-        """Ask for a project and open it."""
+    def open(self) -> bool:
+        """Ask for a project and open it; return whether it was opened."""
         filters = self.tr("Betwixt projects (*{suffix})").format(suffix=project.EXTENSION)
         folder = self._settings.folder("project")
         path = dialogs.ask_open(self._window, self.tr("Open project"), folder, filters)
-        if path:
-            self.open_path(path)
+        return path is not None and self.open_path(path)
 
     def open_path(self, path: Path) -> bool:
         """Open a project, unless the artist wants to keep the one that is open."""

@@ -65,9 +65,9 @@ class MessageBar(QFrame):
         """The message on show; empty when there is none."""
         return "" if self.isHidden() else self._text.text()
 
-    def show_error(self, error: MorphError, *actions: Action) -> None:
+    def show_error(self, error: MorphError, *actions: Action, about: str = "") -> None:
         """Show what is wrong and how to mend it, with up to two buttons."""
-        self._show(str(error), True, actions)
+        self._show(f"{about}{error}", True, actions)
 
     def show_info(self, text: str, *actions: Action) -> None:
         """Show what happened, with up to two buttons."""

@@ -1,0 +1,142 @@
+"""The status bar: what the next click does, how solving goes, and the verdict on the frame."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtWidgets import QLabel, QProgressBar, QPushButton, QSizePolicy, QStatusBar, QWidget
+
+from app.jobs.solver import SpanState
+from app.style import Colours, colours
+from app.workspace import Workspace
+from core.morph.scene import span_of
+
+PATIENCE_MS = 200
+"""Solving that is done sooner goes unmentioned, so that nothing flickers."""
+
+
+class StatusStrip(QStatusBar):
+    """Hint at the left, solving and verdict at the right."""
+
+    cancel_asked = Signal()
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._workspace = workspace
+        self.setSizeGripEnabled(False)
+        self.setContentsMargins(10, 0, 10, 0)
+        self.hint = QLabel()
+        self.hint.setAccessibleName(self.tr("What the next click does"))
+        self.hint.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.stage = QLabel()
+        self.bar = QProgressBar(maximum=1000, textVisible=False)
+        self.bar.setAccessibleName(self.tr("Solving"))
+        self.bar.setFixedSize(120, 8)
+        self.cancel = QPushButton(self.tr("Cancel"))
+        self.cancel.setAccessibleName(self.tr("Cancel solving"))
+        self.cancel.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.cancel.clicked.connect(self.cancel_asked)
+        self.badge = QLabel()
+        self.badge.setAccessibleName(self.tr("Verdict on the frame on screen"))
+        self.addWidget(self.hint, 1)
+        for widget in (self.stage, self.bar, self.cancel, self.badge):
+            self.addPermanentWidget(widget)
+        self._late = QTimer(self, singleShot=True, interval=PATIENCE_MS)
+        self._late.timeout.connect(self._show_solving)
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self._judge)
+        workspace.solver.busy_changed.connect(self._on_busy)
+        workspace.solver.progress.connect(self._on_progress)
+        for signal in (
+            workspace.solver.updated,
+            workspace.session.changed,
+            workspace.selection.changed,
+            workspace.playhead.moved,
+        ):
+            signal.connect(self._judge_soon)
+        self._on_busy(workspace.solver.busy)
+
+    def set_hint(self, hint: str) -> None:
+        """Say what the next click does."""
+        self.hint.setText(hint)
+        self.hint.setToolTip(hint)
+
+    # -- solving -------------------------------------------------------------------------------
+
+    def _on_busy(self, busy: bool) -> None:
+        if busy:
+            self._late.start()
+        else:
+            self._late.stop()
+            self._set_solving(False)
+        self._judge()
+
+    def _show_solving(self) -> None:
+        self._set_solving(True)
+        self._judge()
+
+    def _set_solving(self, shown: bool) -> None:
+        for widget in (self.stage, self.bar, self.cancel):
+            widget.setVisible(shown)
+
+    def _on_progress(self, fraction: float, stage: str) -> None:
+        self.bar.setValue(round(1000 * fraction))
+        self.stage.setText(stage)
+
+    # -- the verdict ---------------------------------------------------------------------------
+
+    def _judge_soon(self) -> None:
+        """Judge once what several signals announce, when all have heard of it."""
+        self._soon.start()
+
+    def _judge(self) -> None:
+        """Judge the current layer's in-between on screen."""
+        layer, frame = self._workspace.selection.layer, self._workspace.playhead.frame
+        c = colours()
+        if layer is None or not layer.spans or not layer.visible:
+            self._set_verdict("", c.muted, "")
+            return
+        index, t = layer.span_at(frame)
+        state = self._workspace.solver.state(layer.id, index)
+        if state is SpanState.SOLVING:
+            if not self._late.isActive():  # else the last verdict may stand for a moment
+                self._set_verdict(self.tr("updating…"), c.solving, "")
+        elif state is SpanState.FAILED:
+            text = self.tr("The shape on screen is the last one that could be computed.")
+            self._set_verdict(self.tr("not solved"), c.error, text)
+        elif state is SpanState.NONE:
+            self._set_verdict(self.tr("out of date"), c.solving, "")
+        else:
+            s = layer.keyframes[index].easing(t)
+            self._set_verdict(*self._on_folds(index, s, c))
+
+    def _on_folds(self, index: int, s: float, c: Colours) -> tuple[str, str, str]:
+        from core.morph.quality import folds  # a morph is there, so what it loads is, too
+
+        morph = self._workspace.solver.morph_of(span_of(self._workspace.selection.layer, index))
+        report = morph.report
+        tip = self.tr(
+            "{triangles} triangles, mean distortion {mean:.3f}, smallest angle {angle:.0f}°"
+        ).format(
+            triangles=report.triangles,
+            mean=report.distortion_mean,
+            angle=57.29578 * report.smallest_angle,
+        )
+        here = len(folds(morph.at(s), morph.triangles))
+        there = len(report.folds_target)
+        if here:
+            text = self.tr("{count} folded triangles") if here > 1 else self.tr("1 folded triangle")
+            return text.format(count=here), c.error, tip
+        if there:
+            return self.tr("folded at the target: {count}").format(count=there), c.error, tip
+        return self.tr("no folds"), c.solved, tip
+
+    def _set_verdict(self, text: str, colour: str, tip: str) -> None:
+        self.badge.setVisible(bool(text))
+        self.badge.setToolTip(tip)
+        self.badge.setText(f'<span style="color:{colour}">●</span>&nbsp; {text}')
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Follow the theme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "badge"):
+            self._judge()

@@ -1,0 +1,156 @@
+"""What went wrong, in the message bar and on the canvas, with the button that mends it."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import QObject, QTimer
+
+from app.canvas.canvas import Canvas
+from app.files.files import Files
+from app.panels.messages import Action, MessageBar
+from app.workspace import Workspace
+from core.errors import FileError, MarkError, MorphError, OutlineError, Where
+from core.model import Layer
+from core.model.edits import remove_marks
+
+Key = tuple[int, int]
+"""Layer id and span index."""
+
+
+class Reporter(QObject):
+    """Shows one trouble at a time: what was just refused, or else what cannot be solved."""
+
+    def __init__(self, workspace: Workspace, canvas: Canvas, files: Files, bar: MessageBar) -> None:
+        super().__init__(bar)
+        self._workspace, self._canvas, self._files, self._bar = workspace, canvas, files, bar
+        self._shown: MorphError | None = None
+        """The solver's error on show."""
+        self._dismissed: MorphError | None = None
+        self._passing = False
+        """Whether what is on show goes with the next change."""
+        self._soon = QTimer(self, singleShot=True, interval=0)
+        self._soon.timeout.connect(self._follow_solver)
+        workspace.session.failed.connect(self.show_refusal)
+        workspace.session.changed.connect(self._on_changed)
+        workspace.solver.updated.connect(self._follow_soon)
+        workspace.selection.changed.connect(self._follow_soon)
+        files.failed.connect(self.show_refusal)
+        files.noted.connect(self.note)
+        bar.closed.connect(self._on_closed)
+
+    def show_refusal(self, error: MorphError) -> None:
+        """Show what was refused just now; the next change takes it away."""
+        self._passing, self._shown = True, None
+        actions: tuple[Action, ...] = ()
+        if isinstance(error, FileError) and self._workspace.session.dirty:
+            actions = ((self.tr("Save as…"), self._save_as),)
+        self._bar.show_error(error, *actions)
+        if _has_place(error.where):
+            self._canvas.show_error(error)
+
+    def note(self, text: str, *actions: Action) -> None:
+        """Show what happened; the next change takes it away."""
+        self._passing, self._shown = True, None
+        self._bar.show_info(text, *actions)
+
+    def show_fault(self, fault: BaseException) -> None:
+        """Show a fault of the program itself; the details are in its log."""
+        what = self.tr("Something went wrong in the program ({fault}).")
+        self.show_refusal(
+            MorphError(
+                what.format(fault=f"{type(fault).__name__}: {fault}"),
+                hint=self.tr("Your work is safe; save it, and report this with the log file."),
+            )
+        )
+
+    # -- following -----------------------------------------------------------------------------
+
+    def _on_changed(self) -> None:
+        if self._passing:
+            self._clear()
+            self._follow_soon()
+
+    def _follow_soon(self) -> None:
+        self._soon.start()
+
+    def _follow_solver(self) -> None:
+        """Show the most pressing error of the solver, or take it away when it is gone."""
+        if self._passing:
+            return
+        key = self._most_pressing()
+        error = None if key is None else self._workspace.solver.errors[key]
+        if error is self._shown:
+            return
+        if error is None or key is None or error is self._dismissed:
+            self._clear()
+            return
+        self._shown = error
+        layer = self._workspace.session.document.layer(key[0])
+        several = len(self._workspace.session.document.layers) > 1
+        about = self.tr("Layer “{name}”: ").format(name=layer.name) if several else ""
+        self._bar.show_error(error, *self._mends(error, key, layer), about=about)
+        self._canvas.show_error(error)
+
+    def _most_pressing(self) -> Key | None:
+        """Return the failed span of the current layer under the playhead, or else the first."""
+        current, frame = self._workspace.selection.layer, self._workspace.playhead.frame
+
+        def urgency(key: Key) -> tuple[bool, bool]:
+            layer = self._workspace.session.document.layer(key[0])
+            return layer is not current, layer.span_at(frame)[0] != key[1]
+
+        return min(self._workspace.solver.errors, key=urgency, default=None)
+
+    def _on_closed(self) -> None:
+        self._dismissed = self._shown
+        self._clear()
+
+    def _clear(self) -> None:
+        self._passing, self._shown = False, None
+        self._bar.clear()
+        self._canvas.clear_error()
+
+    # -- mending -------------------------------------------------------------------------------
+
+    def _mends(self, error: MorphError, key: Key, layer: Layer) -> list[Action]:
+        actions: list[Action] = []
+        marks = [mark for mark in error.where.marks if mark < len(layer.labels)]
+        if marks:
+            text = self.tr("Remove mark {letter}").format(letter=layer.labels[marks[-1]])
+            actions.append((text, partial(self._remove_mark, layer.id, marks[-1], text)))
+        if _has_place(error.where):
+            actions.append((self.tr("Show place"), partial(self._show_place, error, key)))
+        elif not actions and self._workspace.session.undo_stack.canUndo():
+            step = self._workspace.session.undo_stack.undoText()
+            text = self.tr("Undo {step}").format(step=step)
+            actions.append((text, self._workspace.session.undo))
+        return actions
+
+    def _remove_mark(self, layer_id: int, mark: int, text: str) -> None:
+        self._workspace.session.apply(text, remove_marks, layer_id, [mark])
+
+    def _show_place(self, error: MorphError, key: Key) -> None:
+        """Go to the keyframe that is wrong, with the tool that can mend it."""
+        layer_id, index = key
+        keyframes = self._workspace.session.document.layer(layer_id).keyframes
+        at = index + (error.where.side == "target")
+        self._workspace.playhead.stop()
+        self._workspace.selection.select_key(layer_id, at)
+        first, last = keyframes[index].frame, keyframes[index + 1].frame
+        if not first <= self._workspace.playhead.frame < last:
+            self._workspace.playhead.move_to(first)
+        if isinstance(error, MarkError):
+            self._canvas.set_tool("marks")
+        elif isinstance(error, OutlineError):
+            self._canvas.set_tool("nodes")
+        self._canvas.fit()
+        self._canvas.show_error(error)
+
+    def _save_as(self) -> None:
+        self._clear()
+        self._files.save_as()
+
+
+def _has_place(where: Where) -> bool:
+    return bool(where.marks) or where.point is not None or where.node is not None
