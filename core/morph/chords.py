@@ -27,28 +27,72 @@ class ChordSets:
 
     shared: Indices
     source: Indices
-    """What only the source's triangulation has; each crosses some of the target's."""
+    """What only the source's triangulation has: each crosses some of the target's."""
     target: Indices
 
 
 def chord_sets(source: Array, target: Array) -> ChordSets:
-    """Triangulate two polygons (b, 2) without inner points, with as many shared diagonals as found.
+    """Triangulate two polygons (b, 2) without inner points, sharing as many diagonals as found.
 
-    They take turns: what one has and the other can have, the other must have.
+    First they take turns: what one has and the other can have, the other must have. Then diagonals
+    that neither has, but both can have, are put where most others cross.
     """
+    shared = _negotiated(source, target, np.empty((0, 2), np.int64))
+    chords = _with_shared(source, target, shared)
+    while len(fresh := _best_new(source, target, chords)):
+        shared = _negotiated(source, target, np.concatenate([chords.shared, fresh]))
+        chords = _with_shared(source, target, shared)
+    return chords
+
+
+def crossing(chords: Indices, others: Indices) -> NDArray[np.bool_]:
+    """Return (k, l) which diagonals cross: those whose ends interleave along the boundary."""
+    a, z = chords.T[:, :, None]
+    p, q = others.T[:, None, :]
+    return ((a < p) & (p < z) & (z < q)) | ((p < a) & (a < q) & (q < z))
+
+
+def _negotiated(source: Array, target: Array, shared: Indices) -> Indices:
+    """Add to shared diagonals until neither polygon's triangulation has more for the other."""
     ends = (source, target)
-    shared = np.empty((0, 2), np.int64)
-    chords = [_diagonals(triangulate_polygon(end, shared)) for end in ends]
     for turn in range(TURNS):
-        here, there = turn % 2, 1 - turn % 2
-        fresh = _without(chords[here], shared)
-        fresh = fresh[sees(ends[there], fresh)]
-        if turn > 1 and not len(fresh):
+        here, there = ends[turn % 2], ends[1 - turn % 2]
+        fresh = _without(_diagonals(triangulate_polygon(here, shared)), shared)
+        fresh = fresh[sees(there, fresh)]
+        if turn and not len(fresh):
             break
         shared = np.concatenate([shared, fresh])
-        chords[there] = _diagonals(triangulate_polygon(ends[there], shared))
-    only_source, only_target = (_without(chords[i], chords[1 - i]) for i in (0, 1))
-    return ChordSets(_without(chords[0], only_source), only_source, only_target)
+    return shared
+
+
+def _with_shared(source: Array, target: Array, shared: Indices) -> ChordSets:
+    ours, theirs = (_diagonals(triangulate_polygon(end, shared)) for end in (source, target))
+    only_ours = _without(ours, theirs)
+    return ChordSets(_without(ours, only_ours), only_ours, _without(theirs, ours))
+
+
+def _best_new(source: Array, target: Array, chords: ChordSets) -> Indices:
+    """Return diagonals that both polygons can have and that cross no shared one nor each other.
+
+    Those that cross most others come first.
+    """
+    corners = np.unique(np.concatenate([chords.source, chords.target]))
+    i, j = np.triu_indices(len(corners), 1)
+    pairs = np.column_stack([corners[i], corners[j]])
+    gap = pairs[:, 1] - pairs[:, 0]
+    pairs = pairs[(gap > 1) & (gap < len(source) - 1)]
+    pairs = pairs[~crossing(pairs, chords.shared).any(axis=1)]
+    pairs = _without(pairs, np.concatenate([chords.shared, chords.source, chords.target]))
+    for polygon in (source, target):
+        pairs = pairs[sees(polygon, pairs)]
+    saved = [crossing(pairs, only).sum(axis=1) for only in (chords.source, chords.target)]
+    pairs = pairs[np.argsort(-saved[0] * saved[1], kind="stable")]
+    open_ = np.ones(len(pairs), bool)
+    clash = crossing(pairs, pairs)
+    for k in range(len(pairs)):
+        if open_[k]:
+            open_ &= ~clash[k]
+    return pairs[open_]
 
 
 def sees(polygon: Array, pairs: Indices) -> NDArray[np.bool_]:
@@ -57,24 +101,30 @@ def sees(polygon: Array, pairs: Indices) -> NDArray[np.bool_]:
     The line of sight must stay ``CLEAR`` of all other vertices. Vertices may coincide, where the
     polygon is a cut outline.
     """
-    after, before = np.roll(polygon, -1, axis=0), np.roll(polygon, 1, axis=0)
+    after, before = np.roll(polygon, -1, axis=0) - polygon, np.roll(polygon, 1, axis=0) - polygon
     i, j = pairs.T
-    a, c = polygon[i], polygon[j]
-    line = c - a
+    line = polygon[j] - polygon[i]
+    seen = _inside(line, after[i], before[i]) & _inside(-line, after[j], before[j])
+    seen[seen] = _clear(polygon, pairs[seen])
+    return seen
+
+
+def _clear(polygon: Array, pairs: Indices) -> NDArray[np.bool_]:
+    """Whether the segments between vertices touch no others and cross no edges."""
+    start, end = polygon[pairs.T]
+    line = end - start
     length = np.hypot(line[:, 0], line[:, 1])[:, None]
-    from_a, from_c = polygon - a[:, None], polygon - c[:, None]
-    height = cross(line[:, None], from_a) / length
-    along = (line[:, None] * from_a).sum(axis=-1) / length
-    own = ~from_a.any(axis=-1) | ~from_c.any(axis=-1)
+    from_start, from_end = polygon - start[:, None], polygon - end[:, None]
+    height = cross(line[:, None], from_start) / length
+    along = (line[:, None] * from_start).sum(axis=-1) / length
+    own = ~from_start.any(axis=-1) | ~from_end.any(axis=-1)
     touched = (np.abs(height) < CLEAR) & (along > -CLEAR) & (along < length + CLEAR) & ~own
     # two segments cross if each lies on both sides of the other; edge k runs from vertex k
-    edge = after - polygon
+    edge = np.roll(polygon, -1, axis=0) - polygon
     beside = height * np.roll(height, -1, axis=1) <= 0
-    crossed = beside & (cross(edge, from_a) * cross(edge, from_c) <= 0)
+    crossed = beside & (cross(edge, from_start) * cross(edge, from_end) <= 0)
     crossed &= ~(own | np.roll(own, -1, axis=1))
-    leaves = _inside(line, after[i] - a, before[i] - a)
-    arrives = _inside(-line, after[j] - c, before[j] - c)
-    return leaves & arrives & ~(touched | crossed).any(axis=1)
+    return ~(touched | crossed).any(axis=1)
 
 
 def _inside(direction: Array, after: Array, before: Array) -> NDArray[np.bool_]:

@@ -17,7 +17,7 @@ import numpy as np
 from core.geometry.polyline import cross
 from core.geometry.triangulation import Indices, Mesh
 from core.model.outline import Array
-from core.morph.chords import chord_sets
+from core.morph.chords import chord_sets, crossing
 
 MOST_SIDES = 6
 """Two triangles have at most a hexagon in common."""
@@ -32,7 +32,7 @@ def compatible_mesh(source: Array, target: Array) -> tuple[Mesh, Array]:
     """
     b = len(source)
     chords = chord_sets(source, target)
-    pairs = _crossing_pairs(chords.source, chords.target)
+    pairs = np.argwhere(crossing(chords.source, chords.target))
     along_source = _Crossed.of(chords.source, pairs[:, 0], chords.target[pairs[:, 1]], b)
     along_target = _Crossed.of(chords.target, pairs[:, 1], chords.source[pairs[:, 0]], b)
     points = np.vstack([source, along_source.points(source)])
@@ -44,13 +44,6 @@ def compatible_mesh(source: Array, target: Array) -> tuple[Mesh, Array]:
     )
     triangles = [_fans(cells, points, image) for cells in _cells(halves, b)]
     return Mesh(points, np.concatenate(triangles), (ring,)), image
-
-
-def _crossing_pairs(chords: Indices, others: Indices) -> Indices:
-    """Return (c, 2) which diagonals cross: those whose ends interleave along the boundary."""
-    a, z = chords.T[:, :, None]
-    p, q = others.T[:, None, :]
-    return np.argwhere(((a < p) & (p < z) & (z < q)) | ((p < a) & (a < q) & (q < z)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +85,9 @@ class _Crossed:
         order = np.lexsort((place, chord))
         node, chord = node[order], chord[order]
         piece = np.flatnonzero(chord[1:] == chord[:-1])
-        return _both_ways(np.column_stack([node[piece], node[piece + 1]]), self.chords[chord[piece]])
+        return _both_ways(
+            np.column_stack([node[piece], node[piece + 1]]), self.chords[chord[piece]]
+        )
 
 
 def _both_ways(edges: Indices, lines: Indices) -> Indices:
