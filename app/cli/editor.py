@@ -33,6 +33,10 @@ def run(arguments: Sequence[str]) -> int:
         complain(_headless_advice(path))
         return USAGE
     require_qt("PySide6.QtWidgets", f"{OFFSCREEN_PACKAGES} {WINDOW_PACKAGES}")
+    return _open(path)
+
+
+def _open(path: Path | None) -> int:
     from app.main_window import run as open_window
 
     return int(open_window(path))
