@@ -20,6 +20,8 @@ REPEAT = 1e-9
 """Vertices closer than this, as a fraction of the diagonal, are one vertex."""
 FLAT = 1e-9
 """An outline whose hull has less area than this fraction of its squared diagonal is a line."""
+SIZES = 1e-12, 1e15
+"""Diagonals that can be computed with; squares and fourth powers must stay finite."""
 MAX_LOSS = 0.02
 """Fraction of the area that a repair may take away or add."""
 
@@ -82,6 +84,12 @@ def _distinct(ring: Array, side: str, index: int, repairs: list[str]) -> Array:
             hint="Correct or delete that node.",
         )
     size = float(np.hypot(*np.ptp(ring, axis=0))) if len(ring) else 0.0
+    if len(ring) and not (size == 0 or SIZES[0] <= size <= SIZES[1]):
+        raise OutlineError(
+            f"The {name} is {size:.3g} wide, outside {SIZES[0]:g} to {SIZES[1]:g}.",
+            where=Where(side, index),
+            hint="Scale it.",
+        )
     step = np.roll(ring, -1, axis=0) - ring
     kept = ring[np.hypot(step[:, 0], step[:, 1]) > REPEAT * size]
     if len(kept) < 3:

@@ -28,6 +28,7 @@ from core.morph.suggest import best_shift
 from core.progress import Progress, silent
 
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
+MIN_DENSITY = 3
 OFF_OUTLINE = 1e-3
 """How far a repair may leave a mark from the outline, as a fraction of its size."""
 
@@ -49,6 +50,7 @@ def solve_outlines(
     and whatever ``progress`` raises.
     """
     recipe = recipe or Recipe()
+    _check_recipe(recipe)
     labels = labels or list(islice(mark_labels(), len(marks)))
     clock = _Clock(progress)
     clock.start("outlines", 0.0)
@@ -83,6 +85,19 @@ def solve_outlines(
     clock.stop()
     report = _report(mesh, placed, rest, goal, ends, len(mesh.points) - len(coarse.points), clock)
     return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, origin, unit)
+
+
+def _check_recipe(recipe: Recipe) -> None:
+    if recipe.density < MIN_DENSITY:
+        raise SolveError(
+            f"A mesh density of {recipe.density} is too coarse.",
+            hint=f"Choose at least {MIN_DENSITY} boundary vertices.",
+        )
+    if not (0 <= recipe.lam < np.inf and 0 < recipe.mu < np.inf):
+        raise SolveError(
+            f"A material with μ = {recipe.mu:g} and λ = {recipe.lam:g} is not elastic.",
+            hint="Choose μ above 0, and λ at 0 or above.",
+        )
 
 
 def _inbetween(recipe: Recipe, rest: Array, target: Array, triangles: Indices) -> Interpolate:

@@ -40,6 +40,12 @@ def test_a_number_that_is_not_finite_is_refused_with_its_node(number):
     assert (caught.value.where.side, caught.value.where.node) == ("target", 4)
 
 
+@pytest.mark.parametrize("scale", [1e200, 1e-200])
+def test_a_size_beyond_what_can_be_computed_is_refused(scale):
+    with pytest.raises(OutlineError, match="wide"):
+        clean([scale * letter_l()], "source")
+
+
 @pytest.mark.parametrize("points", [[], [[1, 2]], [[0, 0], [1, 1]], [[0, 0], [1, 1], [0, 0]]])
 def test_fewer_than_three_distinct_points_are_refused(points):
     with pytest.raises(OutlineError):

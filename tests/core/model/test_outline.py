@@ -11,6 +11,19 @@ from tests.core.model.shapes import coordinates, fractions, rings
 SAMPLES = np.linspace(0, 1, 9)
 
 
+@given(st.tuples(coordinates, coordinates), st.floats(1, 500), st.floats(1, 500), st.floats(0, 4))
+def test_an_ellipse_is_round(
+    centre: tuple[float, float], wide: float, high: float, at: float
+) -> None:
+    x, y = (Ring.ellipse(centre, (wide, high)).position(at) - centre) / (wide, high)
+    assert np.hypot(x, y) == pytest.approx(1.0, abs=3e-4)
+
+
+def test_an_ellipse_runs_through_its_ends_in_turn() -> None:
+    ring = Ring.ellipse((10, 20), (3, 4))
+    assert ring.points.tolist() == [[13, 20], [10, 24], [7, 20], [10, 16]]
+
+
 @given(rings(), st.data())
 def test_a_new_node_leaves_the_curve_as_it_was(ring: Ring, data: st.DataObject) -> None:
     segment = data.draw(st.integers(0, len(ring) - 1))

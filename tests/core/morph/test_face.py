@@ -44,6 +44,12 @@ def test_unequal_numbers_of_holes_are_refused():
         core.solve(square_ring(), ellipse())
 
 
+@pytest.mark.parametrize("recipe", [{"density": 0}, {"mu": 0.0}, {"lam": -1.0}, {"mu": np.nan}])
+def test_a_recipe_that_makes_no_sense_is_refused(recipe):
+    with pytest.raises(core.SolveError, match=r"density|elastic"):
+        core.solve(ellipse(), letter_l(), recipe=core.Recipe(**recipe))
+
+
 def test_a_mark_that_names_no_vertex_is_refused():
     with pytest.raises(core.MarkError, match="vertex 99 of ring 0 of the target"):
         core.solve(ellipse(), letter_l(), [(0, 99)])
