@@ -51,7 +51,7 @@ class FrameRateField(QComboBox):
     def _apply(self) -> None:
         fps, understood = QLocale().toDouble(self.currentText())
         if understood and LEAST <= fps <= MOST:
-            self._session.apply(self.tr("Change Frame Rate"), update_document, fps=fps)
+            self._session.apply(self.tr("Change frame rate"), update_document, fps=fps)
         else:
             self._shown = 0.0
         self._show(self._session.document)

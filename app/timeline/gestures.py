@@ -75,7 +75,7 @@ class KeyDrag:
             if abs(x - self._grabbed) < QApplication.startDragDistance():
                 return
             self._dragging = True
-            self._workspace.session.begin(QCoreApplication.translate("Timeline", "Move Keyframe"))
+            self._workspace.session.begin(QCoreApplication.translate("Timeline", "Move keyframe"))
         frame = self._start + round((x - self._grabbed) / self._view.scale.pixels)
         frame = int(min(max(frame, self._least), self._most))
         if frame != self._frame:

@@ -111,13 +111,13 @@ class LayerHeader(QWidget):
     def _set_visible(self) -> None:
         if self._layer:
             shown = not self._layer.visible
-            text = self.tr("Show Layer") if shown else self.tr("Hide Layer")
+            text = self.tr("Show layer") if shown else self.tr("Hide layer")
             self._workspace.session.apply(text, update_layer, self._layer.id, visible=shown)
 
     def _set_locked(self) -> None:
         if self._layer:
             locked = not self._layer.locked
-            text = self.tr("Lock Layer") if locked else self.tr("Unlock Layer")
+            text = self.tr("Lock layer") if locked else self.tr("Unlock layer")
             self._workspace.session.apply(text, update_layer, self._layer.id, locked=locked)
 
 

@@ -20,7 +20,7 @@ def delete_key(workspace: Workspace) -> None:
     layer = workspace.selection.layer
     if layer is not None and not _locked(workspace, layer):
         key = workspace.selection.key
-        workspace.session.apply(_tr("Delete Keyframe"), remove_keyframe, layer.id, key)
+        workspace.session.apply(_tr("Delete keyframe"), remove_keyframe, layer.id, key)
 
 
 def nudge_key(workspace: Workspace, frames: int) -> None:
@@ -32,7 +32,7 @@ def nudge_key(workspace: Workspace, frames: int) -> None:
     least, most = room(layer, key, workspace.playhead.lowest)
     frame = min(max(layer.keyframes[key].frame + frames, least), most)
     gesture = ("nudge", layer.id, key)
-    workspace.session.amend(gesture, _tr("Move Keyframe"), move_keyframe, layer.id, key, int(frame))
+    workspace.session.amend(gesture, _tr("Move keyframe"), move_keyframe, layer.id, key, int(frame))
     workspace.playhead.move_to(frame)
 
 
@@ -46,7 +46,7 @@ def room(layer: Layer, key: int, lowest: int) -> tuple[int, float]:
 def ease(workspace: Workspace, place: Place, easing: Easing) -> None:
     """Set the timing of a span."""
     if not _locked(workspace, workspace.session.document.layer(place[0])):
-        workspace.session.apply(_tr("Change Easing"), set_easing, *place, easing)
+        workspace.session.apply(_tr("Change easing"), set_easing, *place, easing)
 
 
 def play_only(workspace: Workspace, place: Place) -> None:

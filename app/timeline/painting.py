@@ -17,11 +17,11 @@ BAND = 5.0
 """Height of the band below it that shows its state."""
 
 
-def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, chosen: bool) -> None:
+def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, current: bool) -> None:
     """Draw a span from key to key: a tinted bar with an arrow, or a plain stop for a hold."""
     c = colours()
     tint = QColor(layer.style.fill[:7] or c.muted)
-    tint.setAlphaF((0.5 if chosen else 0.32) if layer.visible else 0.12)
+    tint.setAlphaF((0.55 if current else 0.35) if layer.visible else 0.12)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(tint)
     painter.drawRoundedRect(box, 3.0, 3.0)

@@ -48,8 +48,7 @@ def _paint_grid(painter: QPainter, rows: Rows, exposed: QRect, lowest: int) -> N
 def _paint_row(
     painter: QPainter, workspace: Workspace, rows: Rows, layer: Layer, top: float, exposed: QRect
 ) -> None:
-    c, selection = colours(), workspace.selection
-    current = selection.layer is layer
+    c, current = colours(), workspace.selection.layer is layer
     if current:
         tint = QColor(c.accent)
         tint.setAlphaF(0.13)
@@ -63,8 +62,7 @@ def _paint_row(
         if right < exposed.left() or left > exposed.right():
             continue
         bar = QRectF(left, top + MIDDLE - painting.BAR / 2, right - left, painting.BAR)
-        chosen = current and selection.key == index
-        painting.paint_span(painter, bar, layer, hold=source.easing.hold, chosen=chosen)
+        painting.paint_span(painter, bar, layer, hold=source.easing.hold, current=current)
         state = workspace.solver.state(layer.id, index)
         band = QRectF(left + 1, top + BAND, right - left - 2, painting.BAND)
         painting.paint_state(painter, band, state)

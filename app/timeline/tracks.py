@@ -27,10 +27,6 @@ from app.timeline.track_painter import paint_tracks
 from app.timeline.words import describe_place, describe_selection
 from app.workspace import Workspace
 
-GRAB = 4.0
-"""Pixels to either side within which the playhead is grabbed."""
-ZOOM_A_KEY = 1.5
-
 
 class Tracks(TimeWidget):
     """Keys are clicked, dragged in time and deleted; spans are chosen and played alone."""
@@ -88,15 +84,15 @@ class Tracks(TimeWidget):
     # -- what the mouse does -------------------------------------------------------------------
 
     def begin(self, event: QMouseEvent) -> Gesture | None:
-        """Grab a key or the playhead; else choose the layer or the span."""
+        """Grab a key; else choose the layer and its span there, and scrub."""
         position = event.position()
         place = self.rows.key_at(position)
         if place is not None:
             return self._grab(place, position.x())
-        if abs(position.x() - self.view.scale.x(self.workspace.playhead.frame)) <= GRAB:
-            return Scrub(self.workspace, self.view)
         self._choose(position)
-        return None
+        scrub = Scrub(self.workspace, self.view)
+        scrub.move(position.x(), event.modifiers())
+        return scrub
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Show what a press would grab."""

@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
+QUARTER = 4 / 3 * (2**0.5 - 1)
+"""Handle length at which a cubic comes closest to a quarter of the unit circle."""
+
 
 def _frozen(values: ArrayLike, rows: int | None = None) -> Array:
     array = np.array(values, dtype=float)
@@ -52,6 +55,14 @@ class Ring:
         array = np.asarray(points, dtype=float)
         zero = np.zeros_like(array)
         return cls(array, zero, zero)
+
+    @classmethod
+    def ellipse(cls, centre: ArrayLike, radii: ArrayLike) -> Self:
+        """Make an ellipse of four smooth nodes, true to 0.03 % of the radii (2,)."""
+        compass = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+        ahead = QUARTER * np.roll(compass, -1, axis=0)
+        r = np.asarray(radii, dtype=float)
+        return cls(np.asarray(centre, dtype=float) + r * compass, -r * ahead, r * ahead)
 
     def __len__(self) -> int:
         return len(self.points)

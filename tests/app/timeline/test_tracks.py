@@ -53,12 +53,13 @@ def test_a_click_on_a_key_chooses_it_and_goes_there(
     assert workspace.session.undo_stack.count() == 0
 
 
-def test_a_click_on_a_span_chooses_it_and_leaves_the_playhead(
+def test_a_click_on_a_span_chooses_it_and_goes_there(
     timeline: Timeline, workspace: Workspace, mouse: Mouse
 ) -> None:
     mouse.click(x_of(timeline, 19), BOTTOM)
     assert chosen(workspace) == (1, 1)
-    assert workspace.playhead.frame == 1
+    assert workspace.playhead.frame == 19
+    assert workspace.session.undo_stack.count() == 0
 
 
 def test_a_click_beside_the_spans_chooses_the_layer(
@@ -78,7 +79,7 @@ def test_dragging_a_key_is_one_step_and_undo_restores_the_identical_document(
     assert frames(workspace) == [1, 18, 25]
     assert seen == [14, 15, 16, 17, 18]
     assert workspace.session.undo_stack.count() == 1
-    assert workspace.session.undo_stack.undoText() == "Move Keyframe"
+    assert workspace.session.undo_stack.undoText() == "Move keyframe"
     workspace.session.undo()
     assert workspace.session.document is before
 
@@ -146,12 +147,13 @@ def test_a_key_of_a_locked_layer_can_be_chosen_but_not_moved_or_deleted(
     assert frames(workspace) == [1, 13, 25]
 
 
-def test_the_playhead_can_be_dragged_over_the_tracks(
+def test_a_drag_over_the_tracks_scrubs(
     timeline: Timeline, workspace: Workspace, mouse: Mouse
 ) -> None:
-    workspace.playhead.move_to(6)
-    mouse.drag((x_of(timeline, 6), BOTTOM), (x_of(timeline, 11), BOTTOM))
-    assert workspace.playhead.frame == 11
+    seen: list[float] = []
+    workspace.playhead.moved.connect(seen.append)
+    mouse.drag((x_of(timeline, 6), BOTTOM), (x_of(timeline, 18), TOP))
+    assert seen == [*range(6, 19)]
     assert workspace.session.undo_stack.count() == 0
 
 

@@ -1,0 +1,60 @@
+"""The artboard and the frame rate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from PySide6.QtWidgets import QWidget
+
+from app.fields.colour import ColourField
+from app.fields.frame_rate import FrameRateField
+from app.fields.number import NumberField
+from app.panels.section import Section
+from app.workspace import Workspace
+from core.model.edits import update_document
+
+SMALLEST, LARGEST = 16, 8192
+
+
+class DocumentSection(Section):
+    """What holds for all layers."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(self.tr("Document"), workspace, parent)
+        self.width_ = NumberField(self.tr("Artboard width"), SMALLEST, LARGEST, suffix=" px")
+        self.height_ = NumberField(self.tr("Artboard height"), SMALLEST, LARGEST, suffix=" px")
+        self.width_.edited.connect(self._set_width)
+        self.height_.edited.connect(self._set_height)
+        self.background = ColourField(self.tr("Background"))
+        self.background.opened.connect(self._begin_background)
+        self.background.edited.connect(self._set_background)
+        self.background.closed.connect(self.end_drag)
+        self.frame_rate = FrameRateField(workspace.session)
+        self.add_row(self.tr("Width"), self.width_)
+        self.add_row(self.tr("Height"), self.height_)
+        self.add_row(self.tr("Background"), self.background)
+        self.add_row(self.tr("Frame rate"), self.frame_rate)
+
+    def refresh(self) -> None:
+        """Show the document; the frame rate shows itself."""
+        document = self.workspace.session.document
+        self.width_.show_value(document.size[0])
+        self.height_.show_value(document.size[1])
+        self.background.show_value(document.background)
+
+    def _set_width(self, value: float) -> None:
+        _, height = self.workspace.session.document.size
+        self._change(self.width_.gesture, self.tr("Change artboard"), size=(value, height))
+
+    def _set_height(self, value: float) -> None:
+        width, _ = self.workspace.session.document.size
+        self._change(self.height_.gesture, self.tr("Change artboard"), size=(width, value))
+
+    def _begin_background(self) -> None:
+        self.workspace.session.begin(self.tr("Change background"))
+
+    def _set_background(self, value: str) -> None:
+        self._change(object(), self.tr("Change background"), background=value)
+
+    def _change(self, gesture: object, text: str, **changes: Any) -> None:
+        self.workspace.session.amend(gesture, text, update_document, **changes)
