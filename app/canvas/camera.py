@@ -30,7 +30,11 @@ class Camera(QObject):
 
     def zoom_at(self, anchor: QPointF, factor: float) -> None:
         """Zoom by a factor; the document point ``anchor`` stays where it is on the screen."""
-        zoom = min(max(self.zoom * factor, MIN_ZOOM), MAX_ZOOM)
+        self.zoom_to(anchor, self.zoom * factor)
+
+    def zoom_to(self, anchor: QPointF, zoom: float) -> None:
+        """Set the zoom, as far as it goes; the document point ``anchor`` stays where it is."""
+        zoom = min(max(zoom, MIN_ZOOM), MAX_ZOOM)
         self._look(anchor + (self.centre - anchor) * (self.zoom / zoom), zoom)
 
     def fit(self, rect: QRectF, size: QSizeF) -> None:

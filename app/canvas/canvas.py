@@ -95,7 +95,7 @@ class Canvas(QWidget):
 
     def zoom_100(self) -> None:
         """Show one document unit as one pixel."""
-        self.camera.zoom_at(self.camera.centre, 1.0 / self.camera.zoom)
+        self.camera.zoom_to(self.camera.centre, 1.0)
 
     def flip(self) -> None:
         """Mirror the view."""
@@ -215,7 +215,7 @@ class Canvas(QWidget):
 
     def _command(self, event: QKeyEvent) -> Command | None:
         """Return what a key does on the canvas now, before any shortcut of the window."""
-        key, modifiers = Qt.Key(event.key()), event.modifiers()
+        key, modifiers = event.key(), event.modifiers()
         plain = not modifiers
         if plain and key in HAND_KEYS:
             return self._take_hand

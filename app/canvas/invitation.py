@@ -20,17 +20,17 @@ class Invitation(Overlay):
 
     def __init__(self, view: View) -> None:
         super().__init__(view)
-        self._title, self._advice, self._ground = "", "", QColor()
+        self.title, self._advice, self._ground = "", "", QColor()
 
     def show_text(self, title: str, advice: str, background: str) -> None:
         """Set what it says, on a background of the document; empty texts hide it."""
-        self._title, self._advice = title, advice
+        self.title, self._advice = title, advice
         self._ground = colour(background) if background else QColor(colours().base)
         self._ground.setAlpha(235)
 
     def make_room(self, drawing: bool) -> None:
         """Hide while something is being drawn, or when there is nothing to say."""
-        self.setVisible(bool(self._title) and not drawing)
+        self.setVisible(bool(self.title) and not drawing)
 
     def draw(self, painter: QPainter) -> None:
         """Paint the card with the words in the middle."""
@@ -50,7 +50,7 @@ class Invitation(Overlay):
         painter.setFont(font)
         painter.setPen(ink)
         title = QRectF(words.left(), words.top(), words.width(), half)
-        painter.drawText(title, flags | Qt.AlignmentFlag.AlignBottom, self._title)
+        painter.drawText(title, flags | Qt.AlignmentFlag.AlignBottom, self.title)
         font.setBold(False)
         painter.setFont(font)
         painter.setPen(faint)

@@ -30,14 +30,10 @@ class MarksOverlay(Overlay):
         self._labels: tuple[str, ...] = ()
         self._pins = NO_PINS
         self._selected: int | None = None
-        self._quiet = False
 
-    def show_marks(
-        self, labels: Sequence[str], pins: Pins, selected: int | None, *, quiet: bool = False
-    ) -> None:
-        """Show marks; ``quiet`` ones are only followed, not edited here."""
-        self._labels, self._pins = tuple(labels), pins
-        self._selected, self._quiet = selected, quiet
+    def show_marks(self, labels: Sequence[str], pins: Pins, selected: int | None) -> None:
+        """Show marks, by their letters."""
+        self._labels, self._pins, self._selected = tuple(labels), pins, selected
         self.update()
 
     def draw(self, painter: QPainter) -> None:
@@ -52,8 +48,6 @@ class MarksOverlay(Overlay):
         self, painter: QPainter, place: Array, letter: Array, label: str, selected: bool
     ) -> None:
         amber, ink = QColor(colours().mark), QColor(colours().on_mark)
-        if self._quiet:
-            painter.setOpacity(0.85)
         painter.setPen(pen(HALO, 4.0))
         painter.drawLine(QPointF(*place), QPointF(*letter))
         painter.setPen(pen(ink, 1.5))
@@ -73,7 +67,6 @@ class MarksOverlay(Overlay):
         painter.setFont(font)
         box = QRectF(letter[0] - RADIUS, letter[1] - RADIUS, 2 * RADIUS, 2 * RADIUS)
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
-        painter.setOpacity(1.0)
 
 
 def letter_centres(view: View, pins: Pins) -> Array:

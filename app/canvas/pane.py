@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.artboard import Artboard
@@ -16,7 +18,6 @@ from app.canvas.moment import Moment, Role, edited_key
 from app.canvas.onion import OnionSkin
 from app.canvas.overlay import ToolOverlay
 from app.canvas.pins import NO_PINS, pins_between, pins_on_key
-from app.canvas.tools.tool import Tool
 from app.canvas.view import View
 from app.jobs.solver import SpanState
 from app.style import colours
@@ -24,6 +25,9 @@ from app.workspace import Workspace
 from core.errors import MorphError
 from core.model import Keyframe
 from core.morph.scene import picture_at
+
+if TYPE_CHECKING:
+    from app.canvas.tools.tool import Tool
 
 DIMMED = 0.22
 """Opacity of the layers that are not being edited, in the panes of keys."""
@@ -81,6 +85,11 @@ class Pane(QWidget):
             return colours().accent
         span, _ = layer.span_at(self._workspace.playhead.frame)
         return colours().source if key <= span else colours().target
+
+    @property
+    def invitation(self) -> str:
+        """What an empty pane invites to; empty when there is something to see."""
+        return self._invitation.title
 
     @property
     def state(self) -> str:
@@ -158,7 +167,7 @@ class Pane(QWidget):
         elif self.role is Role.IN_BETWEEN and moment.morph is not None:
             source = layer.keyframes[moment.span]
             pins = pins_between(source, moment.morph, moment.positions)
-            self._marks.show_marks(layer.labels, pins, None, quiet=True)
+            self._marks.show_marks(layer.labels, pins, selected)
         else:
             self._marks.show_marks((), NO_PINS, None)
 

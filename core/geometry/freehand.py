@@ -39,7 +39,7 @@ def fit_stroke(stroke: ArrayLike, tolerance: float) -> Ring:
     points = _without_repeats(np.asarray(stroke, dtype=float).reshape(-1, 2), tolerance / 4)
     if len(points) >= 3:
         points = _meeting(_without_overshoot(points))
-    if len(points) < 3 or abs(signed_area(points)) < (2 * tolerance) ** 2:
+    if len(points) < 3 or _thickness(points) < tolerance:
         raise OutlineError(
             "The stroke encloses no area.", hint="Draw around the whole shape in one stroke."
         )
@@ -63,6 +63,11 @@ def _without_repeats(points: Array, distance: float) -> Array:
         if np.hypot(*(point - kept[-1])) > distance:
             kept.append(point)
     return np.array(kept).reshape(-1, 2)
+
+
+def _thickness(points: Array) -> float:
+    """Return about how wide a shape is where it is long; 0 where it encloses nothing."""
+    return 2 * abs(signed_area(points)) / float(arc_lengths(points)[-1])
 
 
 def _without_overshoot(points: Array) -> Array:

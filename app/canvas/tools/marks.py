@@ -115,7 +115,7 @@ class MarksTool(Tool):
             self._placed = letter
             self.selection.select_mark(len(layer.labels))
 
-    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Command | None:
+    def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Step through marks, move the selected one along the outline, delete it."""
         layer, mark = self.selection.layer, self.selection.mark
         if layer is None or layer.locked or self.busy or not layer.labels:
@@ -210,13 +210,7 @@ class MarksTool(Tool):
         keyframe = layer.keyframes[key]
         along = _along(keyframe.outline, keyframe.marks[mark], step)
         text = self.tr("Move mark {letter}").format(letter=layer.labels[mark])
-        self.nudge(
-            text,
-            np.array([along, 0.0]),
-            lambda by: self.session.apply(
-                text, composed.slide_mark, layer.id, key, mark, float(by[0])
-            ),
-        )
+        self.session.amend(self.held, text, composed.slide_mark, layer.id, key, mark, along)
 
     def _delete(self) -> None:
         layer, mark = self.selection.layer, self.selection.mark

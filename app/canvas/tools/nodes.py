@@ -87,15 +87,13 @@ class NodesTool(Tool):
             self.session.apply(text, edits.set_handles, layer.id, key, hit.node, *handles)
         self.hover(pointer)
 
-    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Command | None:
-        """Step through nodes, select all, nudge, delete."""
+    def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
+        """Step through nodes, nudge, delete."""
         layer, nodes = self.selection.layer, self.selection.nodes
         if layer is None or layer.locked or self.busy:
             return None
         if key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             return self._previous if key == Qt.Key.Key_Backtab else self._next
-        if key == Qt.Key.Key_A and modifiers == Qt.KeyboardModifier.ControlModifier:
-            return self._select_all
         step = arrow_step(key, modifiers)
         if nodes and step is not None:
             return lambda: self._nudge(layer.id, self.selection.key, nodes, step)
@@ -155,9 +153,6 @@ class NodesTool(Tool):
         elif not nodes <= selected:
             self.selection.select_nodes(nodes)
 
-    def _select_all(self) -> None:
-        self.selection.select_nodes(frozenset(self._all_nodes()))
-
     def _all_nodes(self) -> list[Node]:
         keyframe = self.selection.keyframe
         rings = keyframe.outline.rings if keyframe else ()
@@ -181,11 +176,7 @@ class NodesTool(Tool):
 
     def _nudge(self, layer_id: int, key: int, nodes: frozenset[Node], step: Array) -> None:
         text = self.tr("Move nodes")
-        self.nudge(
-            text,
-            step,
-            lambda by: self.session.apply(text, composed.move_nodes, layer_id, key, nodes, by),
-        )
+        self.session.amend(self.held, text, composed.move_nodes, layer_id, key, nodes, step)
 
     def _delete(self) -> None:
         layer, nodes = self.selection.layer, self.selection.nodes

@@ -109,7 +109,7 @@ class PenTool(DrawingTool):
         if len(self._points) >= MIN_NODES and pointer.pane is self._pane:
             self._close()
 
-    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Command | None:
+    def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Close with Enter, take the last node back with Backspace or Ctrl+Z."""
         if not self._points:
             return None

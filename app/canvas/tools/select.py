@@ -113,7 +113,7 @@ class SelectTool(Tool):
         key = pointer.pane.key
         return Transform(self.session, text, layer.id, key, box, handle, pointer.position)
 
-    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Command | None:
+    def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Nudge the outline with the arrow keys."""
         step = arrow_step(key, modifiers)
         layer = self.selection.layer
@@ -150,14 +150,9 @@ class SelectTool(Tool):
         draw_nodes(painter, rotator[None], accent, smooth=True, size=5.0)
 
     def _nudge(self, layer_id: int, key: int, step: Array) -> None:
+        edit = edits.transform_outline
         text = self.tr("Move outline")
-        self.nudge(
-            text,
-            step,
-            lambda by: self.session.apply(
-                text, edits.transform_outline, layer_id, key, np.eye(2), by
-            ),
-        )
+        self.session.amend(self.held, text, edit, layer_id, key, np.eye(2), step)
 
     def _handle_at(self, pointer: Pointer) -> int | None:
         keyframe = pointer.pane.keyframe

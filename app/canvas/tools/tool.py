@@ -62,7 +62,8 @@ class Tool(QObject):
         self._pressed: Pointer | None = None
         self._last: Pointer | None = None
         self._moving = False
-        self._nudged = np.zeros(2)
+        self.held = object()
+        """Stands for the key that is held down: all that it repeats is one undo step."""
 
     # -- for subclasses ------------------------------------------------------------------------
 
@@ -78,7 +79,7 @@ class Tool(QObject):
     def double_click(self, pointer: Pointer) -> None:
         """Do what the second press of a double click does."""
 
-    def key(self, key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Command | None:
+    def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Return what a key does now; None leaves it to the window's shortcuts."""
 
     def advice(self) -> str:
@@ -116,8 +117,11 @@ class Tool(QObject):
         if self._pressed is None:
             self.hover(pointer)
         elif self._gesture is not None and (self._moving or self._far(pointer)):
-            if not self._moving and self._gesture.text:
+            if self._gesture.text and not self._moving:
                 self.session.begin(self._gesture.text)
+            elif self._gesture.text and not self.session.dragging:  # undo has ended the drag
+                self._gesture = None
+                return
             self._moving = True
             self._gesture.move(pointer)
 
@@ -152,9 +156,8 @@ class Tool(QObject):
             self.hover(self._last)
 
     def key_released(self) -> None:
-        """End what a held key did, as one undo step."""
-        if self._gesture is None:
-            self.session.commit()
+        """Let the next key begin another undo step."""
+        self.held = object()
 
     # -- shared --------------------------------------------------------------------------------
 
@@ -176,21 +179,13 @@ class Tool(QObject):
         self.notice = refusal.format(name=layer.name, state=state)
         return False
 
-    def nudge(self, text: str, step: Array, edit: Callable[[Array], object]) -> None:
-        """Move by one more step; ``edit`` applies the sum. A held key is one undo step."""
-        if not self.session.dragging:
-            self.session.begin(text)
-            self._nudged = np.zeros(2)
-        self._nudged = self._nudged + step
-        edit(self._nudged)
-
     def _far(self, pointer: Pointer) -> bool:
         assert self._pressed is not None
         distance = np.hypot(*(pointer.position - self._pressed.position))
         return bool(distance >= DRAG_DISTANCE * pointer.pixel)
 
 
-def arrow_step(key: Qt.Key, modifiers: Qt.KeyboardModifier) -> Array | None:
+def arrow_step(key: int, modifiers: Qt.KeyboardModifier) -> Array | None:
     """Return the offset (2,) that an arrow key asks for; None for other keys."""
     if key not in ARROWS or modifiers & ~(
         Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier
