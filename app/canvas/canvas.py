@@ -16,6 +16,7 @@ from app.canvas.tools.nodes import NodesTool
 from app.canvas.tools.pen import PenTool
 from app.canvas.tools.select import SelectTool
 from app.canvas.tools.tool import Command, Tool
+from app.canvas.tools.transform_box import TransformBox
 from app.workspace import Workspace
 from core.errors import MorphError
 
@@ -84,8 +85,8 @@ class Canvas(QWidget):
         bounds = QRectF()
         for layer in document.layers:
             for keyframe in layer.keyframes:
-                left, top, right, bottom = keyframe.outline.bounds()
-                bounds = bounds.united(QRectF(left, top, right - left, bottom - top))
+                box = TransformBox.around(keyframe.outline)
+                bounds = bounds.united(QRectF(QPointF(*box.low), QPointF(*box.high)))
         if bounds.isEmpty():
             bounds = QRectF(0, 0, *document.size)
         sizes = [pane.view.size() for pane in self._shown_panes()]

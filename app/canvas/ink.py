@@ -9,7 +9,10 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPixmap, QPolygonF
 
+from app.canvas.view import View
 from app.style import colours
+from core.geometry.places import tracks
+from core.model import Outline
 from core.model.outline import Array
 
 HALO = QColor(255, 255, 255, 200)
@@ -50,6 +53,12 @@ def draw_line(
         draw(line)
     painter.setPen(pen(colour, width, style))
     draw(line)
+
+
+def draw_outline(painter: QPainter, view: View, outline: Outline, colour: str) -> None:
+    """Draw all rings of an outline, given in the document."""
+    for track in tracks(outline):
+        draw_line(painter, view.to_screen(track.polyline.points), colour, closed=True)
 
 
 def draw_nodes(

@@ -18,8 +18,10 @@ from core.model.outline import Array
 if TYPE_CHECKING:
     from core.geometry.triangulation import Indices
 
-LINE_ON_LIGHT, LINE_ON_DARK = "#2b3440", "#dde3ec"
-"""Opaque: translucent lines take several times as long to paint."""
+CONTRAST = 0.45
+"""How far the lines are from the fill towards black, or towards white on a dark fill."""
+LINE = "#7f8895"
+"""Where there is no fill."""
 
 
 class MeshOverlay:
@@ -45,9 +47,7 @@ class MeshOverlay:
         if triangles is not self._triangles:
             self._triangles, self._pairs = triangles, edges_of(triangles).ravel()
         ends = positions[self._pairs]
-        light = not fill or colour(fill).lightnessF() > 0.45
-        pen = pg.mkPen(LINE_ON_LIGHT if light else LINE_ON_DARK, width=1)
-        self._edges.setData(ends[:, 0], ends[:, 1], pen=pen)
+        self._edges.setData(ends[:, 0], ends[:, 1], pen=pg.mkPen(line_on(fill), width=1))
         self._edges.show()
         folded = positions[triangles[areas(triangles, positions) <= 0]]
         self._folds.setVisible(len(folded) > 0)
@@ -55,6 +55,16 @@ class MeshOverlay:
             self._folds.setPath(_triangle_path(folded))
             self._folds.setBrush(QColor(colours().error))
             self._folds.setPen(pg.mkPen(colours().error, width=2))
+
+
+def line_on(fill: str) -> QColor:
+    """Return a colour for lines on a fill. It is opaque: translucent lines paint far slower."""
+    if not fill:
+        return QColor(LINE)
+    ground = colour(fill)
+    end = 0.0 if ground.lightnessF() > 0.4 else 1.0
+    mixed = ((1 - CONTRAST) * part + CONTRAST * end for part in ground.getRgbF()[:3])
+    return QColor.fromRgbF(*mixed)
 
 
 def edges_of(triangles: Indices) -> Indices:

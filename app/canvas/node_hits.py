@@ -10,9 +10,9 @@ import numpy as np
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QPainter
 
-from app.canvas.ink import draw_line, draw_nodes, pen
+from app.canvas.ink import draw_nodes, draw_outline, pen
 from app.canvas.view import View
-from core.geometry.places import nearest_place, tracks
+from core.geometry.places import nearest_place
 from core.model import Outline, Ring, RingPoint
 from core.model.outline import Array
 
@@ -95,8 +95,8 @@ def paint_nodes(
     painter: QPainter, view: View, outline: Outline, tint: str, selected: frozenset[Node]
 ) -> None:
     """Paint an outline with its nodes, and the handles of those that are selected."""
-    for r, (ring, track) in enumerate(zip(outline.rings, tracks(outline), strict=True)):
-        draw_line(painter, view.to_screen(track.polyline.points), tint, closed=True)
+    draw_outline(painter, view, outline, tint)
+    for r, ring in enumerate(outline.rings):
         chosen = np.isin(np.arange(len(ring)), [i for s, i in selected if s == r])
         smooth, at = smooth_nodes(ring), view.to_screen(ring.points)
         for is_chosen, is_smooth in ((False, False), (False, True), (True, False), (True, True)):

@@ -157,6 +157,7 @@ class MarksTool(Tool):
         keyframe, key = pane.keyframe, pane.key
         if keyframe is None or key is None:
             return
+        self.paint_key(painter, pane)
         if self._pane is not None and key < len(self._places):
             self._paint_ghost(painter, pane, keyframe.outline, self._places[key])
 

@@ -139,6 +139,7 @@ class SelectTool(Tool):
         keyframe, layer = pane.keyframe, self.selection.layer
         if keyframe is None or layer is None or layer.locked or not layer.visible:
             return
+        self.paint_key(painter, pane)
         box = TransformBox.around(keyframe.outline)
         accent = colours().selection
         frame = box.frame(pane.view)

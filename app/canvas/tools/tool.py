@@ -9,6 +9,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QPainter
 
+from app.canvas.ink import draw_outline
 from app.canvas.pointer import DRAG_DISTANCE, Pointer
 from app.workspace import Workspace
 from core.model import Layer
@@ -88,6 +89,11 @@ class Tool(QObject):
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint handles and the like, in pixels of the pane's view."""
+
+    def paint_key(self, painter: QPainter, pane: Pane) -> None:
+        """Trace the outline of the key that is edited where something else is seen."""
+        if pane.live and pane.keyframe is not None:
+            draw_outline(painter, pane.view, pane.keyframe.outline, pane.tint)
 
     def leave(self) -> None:
         """Forget what was under the mouse."""
