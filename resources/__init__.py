@@ -5,10 +5,14 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
+FIRST_SAMPLE = "running-fox"
+"""It is open, and already moving, when the editor starts for the first time."""
+
 
 def samples() -> list[Path]:
     """Return the sample documents, in the order they are offered."""
-    return sorted(Path(str(files(__name__) / "samples")).glob("*.betwixt"))
+    found = (Path(str(files(__name__))) / "samples").glob("*.betwixt")
+    return sorted(found, key=lambda path: (path.stem != FIRST_SAMPLE, path.stem))
 
 
 def sample(name: str) -> Path:
