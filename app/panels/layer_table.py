@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache, lru_cache
 from typing import Any
 
 from PySide6.QtCore import (
@@ -16,7 +17,7 @@ from PySide6.QtCore import (
     QSize,
     Qt,
 )
-from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 
 from app.document.session import Session
 from app.fields.colour import paint_colour
@@ -86,13 +87,14 @@ class LayerTable(QAbstractTableModel):
             if role in (Role.DisplayRole, Role.EditRole):
                 return layer.name
             if role == Role.DecorationRole:
-                return _swatch(layer.style.fill)
+                return _swatch(layer.style.fill, colours().disabled)
             if role == Role.ToolTipRole:
                 return self.tr("{}\nDouble click to rename, drag to reorder").format(layer.name)
             return None
         name, text = self._toggle_of(layer, index.column())
         if role == Role.DecorationRole:
-            return _icon(name, dim=not layer.visible)
+            c = colours()
+            return _icon(name, c.text if layer.visible else c.muted, c.on_accent)
         return text if role in (Role.ToolTipRole, Role.AccessibleTextRole) else None
 
     def setData(self, index: Index, value: Any, role: int = Role.EditRole) -> bool:
@@ -148,22 +150,24 @@ class LayerTable(QAbstractTableModel):
             self.dataChanged.emit(self.index(0, 0), self.index(len(self._layers) - 1, NAME))
 
 
-def _icon(name: str, *, dim: bool) -> QIcon:
-    """Return an icon that stays as it is on a chosen row, but for its colour."""
-    c, icon = colours(), QIcon()
+@cache
+def _icon(name: str, plain: str, chosen: str) -> QIcon:
+    """Return an icon in one colour, and in another on a chosen row."""
+    icon = QIcon()
     for size in (ICON, 2 * ICON):
-        icon.addPixmap(pixmap(name, size, c.muted if dim else c.text))
-        icon.addPixmap(pixmap(name, size, c.on_accent), QIcon.Mode.Selected)
+        icon.addPixmap(pixmap(name, size, plain))
+        icon.addPixmap(pixmap(name, size, chosen), QIcon.Mode.Selected)
     return icon
 
 
-def _swatch(fill: str) -> QIcon:
+@lru_cache(maxsize=256)
+def _swatch(fill: str, rim: str) -> QIcon:
     image = QPixmap(ICON, ICON)
     image.fill(Qt.GlobalColor.transparent)
     with QPainter(image) as painter:
         if fill:
             paint_colour(painter, QRectF(1, 1, ICON - 2, ICON - 2), fill)
-        painter.setPen(colours().disabled)
+        painter.setPen(QColor(rim))
         painter.drawRect(QRectF(0.5, 0.5, ICON - 1, ICON - 1))
     icon = QIcon(image)
     icon.addPixmap(image, QIcon.Mode.Selected)

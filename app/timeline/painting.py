@@ -15,6 +15,8 @@ BAR = 14.0
 """Height of a span."""
 BAND = 5.0
 """Height of the band below it that shows its state."""
+PERIOD = 8.0
+"""Pixels after which every pattern of the band repeats."""
 
 
 def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, current: bool) -> None:
@@ -45,31 +47,31 @@ def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, curr
 
 
 def paint_state(painter: QPainter, box: QRectF, state: SpanState) -> None:
-    """Draw the band of a state: solid, striped, zigzag, or dashed where there is no solution."""
-    c = colours()
-    y = box.center().y()
-    painter.save()
-    painter.setClipRect(box.adjusted(-1, -1, 1, 1))
+    """Draw the band of a state: solid, blocks, zigzag, or dashes where there is no solution."""
+    c, y = colours(), box.center().y()
+    line = (QPointF(box.left(), y), QPointF(box.right(), y))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
     match state:
         case SpanState.SOLVED:
             painter.fillRect(box.adjusted(0, 1, 0, -1), QColor(c.solved))
         case SpanState.SOLVING:
-            faint = QColor(c.solving)
-            faint.setAlphaF(0.25)
-            painter.fillRect(box, faint)
-            painter.setPen(QPen(QColor(c.solving), 2.0))
-            for i in range(int(box.width() / 7) + 2):
-                x = box.left() + 7 * i
-                painter.drawLine(QPointF(x - 4, box.bottom() + 1), QPointF(x + 3, box.top() - 1))
+            painter.setPen(_dashed(c.solving, BAND, 4.0, 4.0))
+            painter.drawLine(*line)
         case SpanState.FAILED:
             painter.setPen(QPen(QColor(c.error), 1.6))
-            count = int(box.width() / 4) + 2
-            peaks = [box.top() if i % 2 else box.bottom() for i in range(count)]
-            painter.drawPolyline([QPointF(box.left() + 4 * i, p) for i, p in enumerate(peaks)])
+            sides = (box.bottom(), box.top())
+            peaks = range(int(box.width() / 4) + 1)
+            painter.drawPolyline([QPointF(box.left() + 4 * i, sides[i % 2]) for i in peaks])
         case SpanState.NONE:
-            painter.setPen(QPen(QColor(c.disabled), 1.4, Qt.PenStyle.DashLine))
-            painter.drawLine(QPointF(box.left(), y), QPointF(box.right(), y))
-    painter.restore()
+            painter.setPen(_dashed(c.disabled, 1.4, 5.0, 3.0))
+            painter.drawLine(*line)
+
+
+def _dashed(colour: str, width: float, drawn: float, left_out: float) -> QPen:
+    pen = QPen(QColor(colour), width)
+    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+    pen.setDashPattern([drawn / width, left_out / width])
+    return pen
 
 
 def paint_failure(painter: QPainter, centre: QPointF) -> None:

@@ -64,10 +64,21 @@ def _paint_row(
         bar = QRectF(left, top + MIDDLE - painting.BAR / 2, right - left, painting.BAR)
         painting.paint_span(painter, bar, layer, hold=source.easing.hold, current=current)
         state = workspace.solver.state(layer.id, index)
-        band = QRectF(left + 1, top + BAND, right - left - 2, painting.BAND)
+        band = _visible(QRectF(left + 1, top + BAND, right - left - 2, painting.BAND), exposed)
         painting.paint_state(painter, band, state)
         if state is SpanState.FAILED:
             painting.paint_failure(painter, bar.center())
+
+
+def _visible(band: QRectF, exposed: QRect) -> QRectF:
+    """Cut a band to what is exposed, so that its pattern stays where it was."""
+    hidden = max((exposed.left() - band.left()) // painting.PERIOD, 0) * painting.PERIOD
+    return QRectF(
+        band.left() + hidden,
+        band.top(),
+        min(band.right(), exposed.right() + painting.PERIOD) - band.left() - hidden,
+        band.height(),
+    )
 
 
 def _paint_keys(
@@ -97,7 +108,7 @@ def _paint_out_of_range(
         return
     start, end = (rows.scale.x(frame) for frame in workspace.playhead.range)
     veil = QColor(colours().line)
-    veil.setAlphaF(0.35)
+    veil.setAlphaF(0.55)
     area = QRectF(exposed)
     painter.fillRect(area.intersected(QRectF(-1e6, area.top(), start + 1e6, area.height())), veil)
     painter.fillRect(area.intersected(QRectF(end, area.top(), 1e6, area.height())), veil)

@@ -54,7 +54,7 @@ class Tracks(TimeWidget):
         }
         workspace.selection.changed.connect(self._on_selection_changed)
         workspace.solver.updated.connect(self.update)
-        self._on_selection_changed()
+        self.on_document_changed()
 
     @property
     def rows(self) -> Rows:
@@ -65,13 +65,9 @@ class Tracks(TimeWidget):
         """Return the height of all rows."""
         return QSize(400, self.rows.height)
 
-    def minimumSizeHint(self) -> QSize:
-        """Return the height of all rows: they are scrolled, never squeezed."""
-        return QSize(120, self.rows.height)
-
     def on_document_changed(self) -> None:
         """Show the new document."""
-        self.updateGeometry()
+        self.setMinimumHeight(self.rows.height)  # rows are scrolled, never squeezed
         self._on_selection_changed()
 
     def paintEvent(self, event: QPaintEvent) -> None:
