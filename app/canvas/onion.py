@@ -13,7 +13,7 @@ from app.render.painter import outline_path
 from core.geometry.flatten import flatten
 from core.model import Outline
 
-FILL_ALPHA, LINE_ALPHA = 36, 210
+FILL_ALPHA = 36
 
 
 class OnionSkin(QGraphicsItem):
@@ -33,10 +33,9 @@ class OnionSkin(QGraphicsItem):
         self._ghosts = []
         for (outline, colour), style in zip(outlines, styles, strict=False):
             path = outline_path([polyline.points for polyline in flatten(outline)])
-            fill, line = QColor(colour), QColor(colour)
+            fill = QColor(colour)
             fill.setAlpha(FILL_ALPHA)
-            line.setAlpha(LINE_ALPHA)
-            pen = QPen(line, 1.5, style)
+            pen = QPen(QColor(colour), 1.0, style)
             pen.setCosmetic(True)
             self._ghosts.append((path, fill, pen))
         self.update()
@@ -48,8 +47,9 @@ class OnionSkin(QGraphicsItem):
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
     ) -> None:
-        """Paint the ghosts."""
+        """Paint the ghosts; a cosmetic pen counts device pixels, so it needs their ratio."""
         for path, fill, pen in self._ghosts:
+            pen.setWidthF(painter.device().devicePixelRatioF())
             painter.setPen(pen)
             painter.setBrush(fill)
             painter.drawPath(path)

@@ -187,3 +187,16 @@ def test_switching_the_layout_switches_the_panes(hand: Hand):
     assert [role for role in Role if hand.pane(role).isVisible()] == [OVERLAY]
     hand.workspace.view.update(layout="side by side")
     assert [role for role in Role if hand.pane(role).isVisible()] == [SOURCE, BETWEEN, TARGET]
+
+
+def test_panes_keep_their_shares_of_the_width(hand: Hand):
+    def widths() -> list[int]:
+        return [hand.pane(role).width() for role in SIDE_BY_SIDE]
+
+    before = np.array(widths()) / sum(widths())
+    hand.canvas.resize(800, 460)
+    hand.workspace.view.update(layout="overlay")
+    hand.workspace.view.update(layout="side by side")
+    QApplication.processEvents()
+    np.testing.assert_allclose(np.array(widths()) / sum(widths()), before, atol=0.01)
+    assert widths()[1] == max(widths())
