@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,6 +13,8 @@ TOLERANCE = 1e-4
 """Largest distance from curve to polyline, as a fraction of the outline's diagonal."""
 MAX_PIECES = 256
 """Pieces that one segment is cut into at most."""
+REMEMBERED = 256
+"""Outlines whose polylines are kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,8 +27,12 @@ class Polyline:
     """(n,) increasing places on the ring it came from."""
 
 
+@lru_cache(maxsize=REMEMBERED)
 def flatten(outline: Outline, tolerance: float = TOLERANCE) -> tuple[Polyline, ...]:
-    """Flatten every ring to within ``tolerance`` × the diagonal of the outline's bounds."""
+    """Flatten every ring to within ``tolerance`` × the diagonal of the outline's bounds.
+
+    The same outlines are asked for with every frame, so the last ones are remembered.
+    """
     left, top, right, bottom = outline.bounds()
     distance = tolerance * float(np.hypot(right - left, bottom - top))
     return tuple(flatten_ring(ring, distance) for ring in outline.rings)
@@ -41,7 +48,9 @@ def flatten_ring(ring: Ring, distance: float) -> Polyline:
         u /= len(u)
         at.append(i + u)
         points.append(_cubic(ring.controls(i), u) if curved else ring.points[i : i + 1])
-    return Polyline(np.concatenate(points), np.concatenate(at))
+    polyline = Polyline(np.concatenate(points), np.concatenate(at))
+    polyline.points.setflags(write=False)
+    return polyline
 
 
 def _pieces(controls: Array, distance: float) -> int:
