@@ -17,20 +17,24 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.actions import ENTRIES, translated
+from app.actions import ENTRIES, Entry, translated
 from app.icons import pixmap
 from app.menus import MENUS, Items
 from app.style import colours
 
 ON_THE_CANVAS = (
     ("Wheel", "Zoom at the cursor"),
-    ("Middle drag, H or Space with drag", "Move the view"),
-    ("Enter", "Close the outline that is being drawn"),
-    ("Esc", "Leave what is under way, then the tool"),
-    ("Arrows", "Move what is selected; with Shift ten times as far"),
+    ("Middle drag   H   Space", "Move the view"),
+    ("Enter", "Close the outline"),
+    ("Esc", "Leave a drawing, then the tool"),
+    ("Arrows", "Move what is selected; Shift: ten times as far"),
     ("Del", "Delete what is selected"),
 )
 COLUMNS = 3
+WIDEST, HIGHEST = 1200, 680
+Row = tuple[str, str]
+"""Keys, and what they do."""
+Section = tuple[str, list[Row]]
 LICENCES = """
 <p>Betwixt draws the frames between two outlines, as rigidly as possible.</p>
 <p>Betwixt itself is under the MIT licence. It uses, among others:</p>
@@ -48,25 +52,16 @@ author.</li>
 def show_shortcuts(parent: QWidget) -> None:
     """List every shortcut, menu by menu."""
     dialog = _dialog(parent, _tr("Keyboard shortcuts"))
-    grid = QHBoxLayout()
-    grid.setSpacing(36)
-    sections = [(title.replace("&", ""), _rows(items)) for title, items in MENUS]
-    sections = [section for section in sections if section[1]]
-    sections.append(
-        (_tr("On the canvas"), [(_tr(keys), _tr(text)) for keys, text in ON_THE_CANVAS])
-    )
-    for sections_of_column in _balanced(sections):
-        column = QVBoxLayout()
-        for title, rows in sections_of_column:
-            column.addLayout(_section(translated(title), rows))
-        column.addStretch(1)
-        grid.addLayout(column)
     content = QWidget()
-    content.setLayout(grid)
+    columns = QHBoxLayout(content)
+    columns.setContentsMargins(0, 0, 12, 12)
+    columns.setSpacing(40)
+    for sections in _balanced(_sections()):
+        columns.addWidget(_column(sections), alignment=Qt.AlignmentFlag.AlignTop)
     scroll = QScrollArea(widgetResizable=True, frameShape=QScrollArea.Shape.NoFrame)
     scroll.setWidget(content)
     hint = content.sizeHint()
-    scroll.setMinimumSize(min(hint.width() + 24, 1180), min(hint.height() + 8, 640))
+    scroll.setMinimumSize(min(hint.width() + 16, WIDEST), min(hint.height(), HIGHEST))
     dialog.layout().insertWidget(0, scroll)
     dialog.exec()
     dialog.deleteLater()
@@ -90,48 +85,62 @@ def show_about(parent: QWidget) -> None:
     dialog.deleteLater()
 
 
-def _rows(items: Items) -> list[tuple[str, str]]:
-    """Return (keys, text) for every action in a menu and in the menus within it."""
-    entries = {entry.id: entry for entry in ENTRIES}
-    rows = []
-    for item in items:
-        if isinstance(item, tuple):
-            rows += _rows(item[1])
-        elif item in entries and entries[item].keys:
-            native = QKeySequence.SequenceFormat.NativeText
-            keys = "  or  ".join(QKeySequence(key).toString(native) for key in entries[item].keys)
-            rows.append((keys, translated(entries[item].text).replace("&", "").rstrip("…")))
-    return rows
+def _sections() -> list[Section]:
+    """Return every menu that has shortcuts, each action where it comes first."""
+    entries = {entry.id: entry for entry in ENTRIES if entry.keys}
+    sections: list[Section] = []
+
+    def add(title: str, items: Items) -> None:
+        rows = [_row(entries.pop(item)) for item in items if item in entries]
+        if rows:
+            sections.append((translated(title).replace("&", ""), rows))
+        for item in items:
+            if isinstance(item, tuple):
+                add(*item)
+
+    for menu in MENUS:
+        add(*menu)
+    on_canvas = [(_tr(keys), _tr(text)) for keys, text in ON_THE_CANVAS]
+    return [*sections, (_tr("On the canvas"), on_canvas)]
 
 
-def _balanced(sections: list[tuple[str, list]]) -> list[list[tuple[str, list]]]:
+def _row(entry: Entry) -> Row:
+    native = QKeySequence.SequenceFormat.NativeText
+    keys = [QKeySequence(key).toString(native) for key in entry.keys]
+    return "   ".join(keys), translated(entry.text).replace("&", "").rstrip("…")
+
+
+def _balanced(sections: list[Section]) -> list[list[Section]]:
     """Share the sections out to columns of about the same height, in order."""
     height = sum(len(rows) + 2 for _, rows in sections) / COLUMNS
-    columns: list[list[tuple[str, list]]] = [[]]
+    columns: list[list[Section]] = [[]]
     filled = 0.0
     for section in sections:
-        if filled >= height and len(columns) < COLUMNS:
+        size = len(section[1]) + 2
+        if columns[-1] and filled + size / 2 > height and len(columns) < COLUMNS:
             columns.append([])
             filled = 0.0
         columns[-1].append(section)
-        filled += len(section[1]) + 2
+        filled += size
     return columns
 
 
-def _section(title: str, rows: list[tuple[str, str]]) -> QGridLayout:
-    grid = QGridLayout()
+def _column(sections: list[Section]) -> QWidget:
+    column = QWidget()
+    grid = QGridLayout(column)
+    grid.setContentsMargins(0, 0, 0, 0)
     grid.setHorizontalSpacing(16)
     grid.setVerticalSpacing(4)
-    grid.setColumnStretch(1, 1)
-    head = QLabel(f"<b>{title}</b>")
-    grid.addWidget(head, 0, 0, 1, 2)
-    for i, (keys, text) in enumerate(rows, 1):
-        label = QLabel(keys)
-        label.setStyleSheet(f"color: {colours().muted}")
-        grid.addWidget(label, i, 0)
-        grid.addWidget(QLabel(text), i, 1)
-    grid.setContentsMargins(0, 0, 0, 14)
-    return grid
+    for title, rows in sections:
+        head = QLabel(f"<b>{title}</b>")
+        head.setContentsMargins(0, 12 if grid.count() else 0, 0, 0)
+        grid.addWidget(head, grid.rowCount(), 0, 1, 2)
+        for keys, text in rows:
+            label = QLabel(keys)
+            label.setStyleSheet(f"color: {colours().muted}")
+            grid.addWidget(label, grid.rowCount(), 0)
+            grid.addWidget(QLabel(text), grid.rowCount() - 1, 1)
+    return column
 
 
 def _dialog(parent: QWidget, title: str) -> QDialog:

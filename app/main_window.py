@@ -39,7 +39,7 @@ from core.errors import MorphError
 
 FIRST_SIZE = QSize(1360, 860)
 SIDE_WIDTH = 288
-TIMELINE_HEIGHT = 210
+TIMELINE_HEIGHT = 214
 ICON = QSize(20, 20)
 
 
@@ -100,6 +100,7 @@ class MainWindow(QMainWindow):
                 ("timeline", self.tr("Timeline"), self.timeline, area.BottomDockWidgetArea),
             )
         }
+        self._docks["timeline"].setTitleBarWidget(QWidget())  # its transport is title enough
 
     def _add_dock(
         self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea
@@ -172,6 +173,7 @@ class MainWindow(QMainWindow):
 
     def begin(self, path: Path | None) -> None:
         """Offer what a crash left behind, or open a file, or else a sample that is moving."""
+        self.canvas.setFocus()
         if self._offer_recovery():
             return
         if path is not None:
@@ -183,8 +185,12 @@ class MainWindow(QMainWindow):
             self.toggle_welcome()
 
     def play_sample(self, path: Path) -> None:
-        """Open a copy of a sample, moving."""
+        """Open a copy of a sample, moving, with the layer in hand that has most to show."""
         if self.files.open_sample(path):
+            layers = self.workspace.session.document.layers
+            if layers:
+                main = max(layers, key=lambda layer: len(layer.labels))
+                self.workspace.selection.select_layer(main.id)
             self.workspace.playhead.play()
 
     def _offer_recovery(self) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from importlib.resources import files
+from pathlib import Path
 from typing import Literal
 
 from PySide6.QtCore import Qt
@@ -153,6 +155,10 @@ def _palette(c: Colours) -> QPalette:
     return palette
 
 
+def _image(name: str) -> str:
+    return (Path(str(files("resources"))) / "icons" / f"{name}.svg").as_posix()
+
+
 def _sheet(c: Colours) -> str:
     """Return what a palette cannot say; everything else is left to Fusion."""
     return f"""
@@ -181,6 +187,24 @@ def _sheet(c: Colours) -> str:
         background: {c.accent}; color: {c.on_accent}; border-color: {c.accent};
     }}
     QPushButton:disabled {{ color: {c.disabled}; background: {c.window}; }}
+    QCheckBox, QRadioButton {{ spacing: 8px; min-height: {TARGET_SIZE - 4}px; }}
+    QCheckBox::indicator, QRadioButton::indicator {{
+        width: 14px; height: 14px; border: 1px solid {c.muted}; background: {c.base};
+    }}
+    QCheckBox::indicator {{ border-radius: 3px; }}
+    QRadioButton::indicator {{ border-radius: 8px; }}
+    QCheckBox::indicator:checked {{
+        background: {c.accent}; border-color: {c.accent}; image: url({_image("checked")});
+    }}
+    QRadioButton::indicator:checked {{
+        border-color: {c.accent};
+        background: qradialgradient(cx: 0.5, cy: 0.5, radius: 0.5, fx: 0.5, fy: 0.5,
+            stop: 0.4 {c.on_accent}, stop: 0.5 {c.accent});
+    }}
+    QCheckBox::indicator:hover, QRadioButton::indicator:hover {{ border-color: {c.accent}; }}
+    QCheckBox::indicator:disabled, QRadioButton::indicator:disabled {{
+        border-color: {c.disabled}; background: {c.window};
+    }}
     QMenuBar {{ background: {c.window}; padding: 2px; }}
     QMenuBar::item {{ padding: 5px 9px; border-radius: {RADIUS}px; }}
     QMenuBar::item:selected {{ background: {c.hover}; }}

@@ -6,18 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPixmap
+from PySide6.QtGui import QColor, QPainter, QPixmap
 
 from app.render.painter import brush_of, colour, outline_path, pen_of
 from app.style import RADIUS, colours
 from core.geometry.flatten import flatten
-from core.model import Document, Layer, Outline, Style
+from core.model import Document, Outline, Style
 from core.model.outline import Array
 
 MARGIN = 0.1
 """Free space at each side, as a part of the picture."""
-GHOST = 1.5
-"""Pixels: the line of the keyframe that a motion starts from."""
 
 
 def outline_thumbnail(outline: Outline, style: Style, size: QSize, ratio: float = 1.0) -> QPixmap:
@@ -31,26 +29,19 @@ def outline_thumbnail(outline: Outline, style: Style, size: QSize, ratio: float 
 
 
 def document_thumbnail(document: Document, size: QSize, ratio: float = 1.0) -> QPixmap:
-    """Draw what every layer turns into, and a line for what it starts as."""
-    layers = [layer for layer in document.layers if layer.visible]
+    """Draw what every layer ends as, as much of it as was drawn on."""
     image, painter = _sheet(size, ratio, document.background)
-    if layers:
-        starts = [_rings(layer.keyframes[0].outline) for layer in layers]
-        _aim(painter, size, [*starts, *(_rings(_end(layer)) for layer in layers)])
-        for layer, start in zip(layers, starts, strict=True):
-            _paint(painter, _rings(_end(layer)), layer.style)
-            if layer.spans:
-                pen = QPen(QColor(colours().source), GHOST)
-                pen.setCosmetic(True)
-                painter.setPen(pen)
-                painter.setBrush(Qt.BrushStyle.NoBrush)
-                painter.drawPath(outline_path(start))
+    last = [
+        (_rings(layer.keyframes[-1].outline), layer.style)
+        for layer in document.layers
+        if layer.visible
+    ]
+    if last:
+        _aim(painter, size, [rings for rings, _ in last])
+    for rings, style in last:
+        _paint(painter, rings, style)
     painter.end()
     return image
-
-
-def _end(layer: Layer) -> Outline:
-    return layer.keyframes[-1].outline
 
 
 def _rings(outline: Outline) -> tuple[Array, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import Qt
@@ -90,8 +91,8 @@ class ExportDialog(QDialog):
             return
         self._written = outcome
         count = len(outcome)
-        text = self.tr("{count} files are in") if count > 1 else self.tr("One file is in")
-        self.summary.setText(f"{text.format(count=count)}\n{outcome[0].parent}")
+        text = self.tr("{count} files written") if count > 1 else self.tr("One file written")
+        self.summary.setText(f"<h3>{text.format(count=count)}</h3>{escape(str(outcome[0].parent))}")
         self._turn_to(DONE, self.reveal)
 
     def _end(self) -> None:
@@ -144,9 +145,11 @@ class ExportDialog(QDialog):
 
     def _lay_out(self) -> None:
         self.faces = QStackedWidget()
-        self.faces.addWidget(_face((self.form, self.problem), (self.leave, self.go)))
+        self.summary.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.stage.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.faces.addWidget(_face((self.form, self.problem), (self.go, self.leave)))
         self.faces.addWidget(_face((self.stage, self.bar), (self.stop_button,)))
-        self.faces.addWidget(_face((self.summary,), (self.done_button, self.reveal)))
+        self.faces.addWidget(_face((self.summary,), (self.reveal, self.done_button)))
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.addWidget(self.faces)
@@ -165,6 +168,7 @@ def _face(content: tuple[QWidget, ...], buttons: tuple[QPushButton, ...]) -> QWi
     column = QVBoxLayout(face)
     column.setContentsMargins(0, 0, 0, 0)
     column.setSpacing(12)
+    column.addStretch(1)
     for widget in content:
         column.addWidget(widget)
     column.addStretch(1)

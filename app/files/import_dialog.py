@@ -106,14 +106,17 @@ class ImportDialog(QDialog):
 
     def _lay_out(self) -> None:
         column = QVBoxLayout(self)
-        column.setSpacing(10)
+        column.setContentsMargins(16, 16, 16, 16)
+        column.setSpacing(6)
         question = QLabel(self.tr("Which shapes do you want? Ctrl+click chooses several."))
         question.setVisible(len(self._parts) > 1)
         column.addWidget(question)
         column.addWidget(self.list, 1)
         for radio in self._radios.values():
             column.addWidget(radio)
+        column.addSpacing(6)
         column.addWidget(self.fit)
+        column.addSpacing(6)
         column.addWidget(self.buttons)
         columns = min(max(len(self._parts), 3), 5)
         rows = min(-(-len(self._parts) // columns), 3)

@@ -80,7 +80,7 @@ class StatusStrip(QStatusBar):
 
     def _on_progress(self, fraction: float, stage: str) -> None:
         self.bar.setValue(round(1000 * fraction))
-        self.stage.setText(stage)
+        self.stage.setText(self.tr("Solving: {stage}").format(stage=stage) if stage else "")
 
     # -- the verdict ---------------------------------------------------------------------------
 

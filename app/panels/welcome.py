@@ -29,7 +29,7 @@ from core.errors import FileError
 from core.io import project
 
 WIDTH = 300
-THUMBNAIL = QSize(116, 80)
+THUMBNAIL = QSize(112, 66)
 COLUMNS = 2
 RECENT_SHOWN = 5
 
@@ -68,10 +68,7 @@ class WelcomePanel(QFrame):
     def _make_widgets(self) -> None:
         self.title = QLabel(self.tr("Welcome to Betwixt"))
         self.about = QLabel(
-            self.tr(
-                "Two outlines in, every frame between them out. Draw or import a source and a "
-                "target, mark points that belong together, and play."
-            ),
+            self.tr("Draw or import two outlines, mark the points that belong together, and play."),
             wordWrap=True,
         )
         self.close_button = QToolButton()
@@ -100,7 +97,7 @@ class WelcomePanel(QFrame):
         content = QWidget()
         column = QVBoxLayout(content)
         column.setContentsMargins(14, 12, 14, 12)
-        column.setSpacing(8)
+        column.setSpacing(6)
         head = QHBoxLayout()
         head.addWidget(self.title, 1)
         head.addWidget(self.close_button)
@@ -115,7 +112,8 @@ class WelcomePanel(QFrame):
         column.addLayout(begin)
         column.addWidget(_heading(self.tr("Samples")))
         grid = QGridLayout()
-        grid.setSpacing(8)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(2)
         for i, card in enumerate(self._cards):
             grid.addWidget(card, i // COLUMNS, i % COLUMNS)
         column.addLayout(grid)
@@ -166,7 +164,7 @@ class WelcomePanel(QFrame):
         sheet = (
             f"WelcomePanel {{ border: 0; border-left: 1px solid {c.line}; }}"
             "QPushButton { padding: 4px 6px; }"
-            f"QLabel#heading {{ color: {c.muted}; font-weight: 600; padding-top: 8px; }}"
+            f"QLabel#heading {{ color: {c.muted}; font-weight: 600; padding-top: 6px; }}"
         )
         if sheet != self.styleSheet():
             self.setStyleSheet(sheet)
@@ -185,7 +183,7 @@ class _Card(QToolButton):
         super().__init__()
         self._path = path
         self.drawn = False
-        name = path.stem.replace("-", " ").replace("_", " ").capitalize()
+        name = _title(path.stem)
         self.setText(name)
         self.setAccessibleName(self.tr("Sample: {name}").format(name=name))
         self.setToolTip(self.tr("Open a copy of this sample"))
@@ -230,6 +228,13 @@ class _Link(QToolButton):
 
     def _on_clicked(self) -> None:
         self.chosen.emit(self._path)
+
+
+def _title(stem: str) -> str:
+    """Turn "letter-a-to-r" into "Letter A to R"."""
+    first, *others = stem.split("-")
+    words = [first.capitalize(), *(word.upper() if len(word) == 1 else word for word in others)]
+    return " ".join(words)
 
 
 def _heading(text: str) -> QLabel:
