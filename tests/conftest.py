@@ -6,8 +6,13 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+# A busy machine is no failure, so examples have no deadline.
+settings.register_profile("betwixt", deadline=None, max_examples=60)
+settings.load_profile("betwixt")
 
 collect_ignore: list[str] = []
 QT_PROBLEM = ""

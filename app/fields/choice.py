@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QComboBox, QWidget
 
+from app.fields.calm import CalmWheel
 from app.style import TARGET_SIZE
 
 
-class Choice(QComboBox):
+class Choice(CalmWheel, QComboBox):
     """A box of (text, value) options; the wheel changes it only while it has the focus."""
 
     edited = Signal(object)
@@ -35,13 +35,6 @@ class Choice(QComboBox):
     def show_value(self, value: Any) -> None:
         """Show a value, or nothing if it is none of the options; nothing is emitted."""
         self.setCurrentIndex(self._values.index(value) if value in self._values else -1)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Leave the wheel to the panel, unless this is being edited."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()
 
     def _on_activated(self, index: int) -> None:
         self.edited.emit(self._values[index])

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QLocale, Qt
-from PySide6.QtGui import QDoubleValidator, QWheelEvent
+from PySide6.QtGui import QDoubleValidator
 from PySide6.QtWidgets import QComboBox, QWidget
 
 from app.document.session import Session
+from app.fields.calm import CalmWheel
 from app.style import TARGET_SIZE
 from core.model import Document
 from core.model.edits import update_document
@@ -15,7 +16,7 @@ USUAL = (12, 24, 25, 30, 60)
 LEAST, MOST = 1.0, 240.0
 
 
-class FrameRateField(QComboBox):
+class FrameRateField(CalmWheel, QComboBox):
     """Shows and edits the frame rate of the session's document."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -35,13 +36,6 @@ class FrameRateField(QComboBox):
         self.lineEdit().editingFinished.connect(self._apply)
         session.changed.connect(self._show)
         self._show(session.document)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Leave the wheel to the panel, unless this is being edited."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()
 
     def _show(self, document: Document) -> None:
         if document.fps != self._shown:  # else leave alone what is being typed

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QWheelEvent
+from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QDoubleSpinBox, QWidget
 
+from app.fields.calm import CalmWheel
 from app.style import TARGET_SIZE
 
 
-class NumberField(QDoubleSpinBox):
+class NumberField(CalmWheel, QDoubleSpinBox):
     """A spin box that tells what the artist did apart from what it was told to show.
 
     The wheel changes it only while it has the focus, so that a panel can be scrolled over it.
@@ -66,13 +67,6 @@ class NumberField(QDoubleSpinBox):
         """Begin a gesture."""
         self._end_gesture()
         super().focusInEvent(event)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Leave the wheel to the panel, unless this is being edited."""
-        if self.hasFocus():
-            super().wheelEvent(event)
-        else:
-            event.ignore()
 
     def _end_gesture(self) -> None:
         self._gesture = object()

@@ -23,7 +23,7 @@ from app.document.session import Session
 from app.fields.colour import paint_colour
 from app.icons import pixmap
 from app.style import TARGET_SIZE, colours
-from core.model import Document, Layer
+from core.model import Layer
 from core.model.edits import reorder_layer, update_layer
 
 SHOWN, LOCKED, NAME = range(3)
@@ -40,7 +40,7 @@ class LayerTable(QAbstractTableModel):
         super().__init__(parent)
         self._session = session
         self._layers = session.document.layers[::-1]
-        session.changed.connect(self._on_changed)
+        session.changed.connect(self.sync)
 
     def layer(self, row: int) -> Layer:
         """Return the layer of a row."""
@@ -49,6 +49,15 @@ class LayerTable(QAbstractTableModel):
     def row_of(self, layer_id: int) -> int:
         """Return the row of a layer."""
         return [layer.id for layer in self._layers].index(layer_id)
+
+    def sync(self) -> None:
+        """Show the document as it is; for those who hear of a change before this table."""
+        before, self._layers = self._layers, self._session.document.layers[::-1]
+        if [layer.id for layer in before] != [layer.id for layer in self._layers]:
+            self.beginResetModel()
+            self.endResetModel()
+        elif before != self._layers:
+            self.dataChanged.emit(self.index(0, 0), self.index(len(self._layers) - 1, NAME))
 
     def toggle(self, index: Index) -> None:
         """Show or hide, lock or unlock, by a click in the first two columns."""
@@ -140,14 +149,6 @@ class LayerTable(QAbstractTableModel):
         index = len(ids) - 1 - above
         self._session.apply(self.tr("Reorder layers"), reorder_layer, layer_id, index)
         return False  # the row has moved with the document; the view must not remove it
-
-    def _on_changed(self, document: Document) -> None:
-        before, self._layers = self._layers, document.layers[::-1]
-        if [layer.id for layer in before] != [layer.id for layer in self._layers]:
-            self.beginResetModel()
-            self.endResetModel()
-        elif before != self._layers:
-            self.dataChanged.emit(self.index(0, 0), self.index(len(self._layers) - 1, NAME))
 
 
 @cache

@@ -127,6 +127,7 @@ class LayersPanel(QWidget):
     # -- keeping in step -----------------------------------------------------------------------
 
     def _refresh(self) -> None:
+        self.table.sync()
         layers, layer = self._workspace.session.document.layers, self._workspace.selection.layer
         _, duplicate, up, down, delete = self._buttons
         for button in (duplicate, delete):

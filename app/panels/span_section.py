@@ -12,7 +12,7 @@ from app.fields.number import NumberField
 from app.panels.easing_editor import EasingEditor
 from app.panels.section import Section
 from app.workspace import Workspace
-from core.model import Easing, Layer
+from core.model import Easing
 from core.model.easing import PRESETS
 from core.model.edits import move_keyframe, set_easing
 
@@ -38,14 +38,10 @@ class KeyframeSection(Section):
             return
         count = len(layer.keyframes)
         self.set_title(self.tr("Keyframe {} of {}").format(key + 1, count))
-        self.frame.limit(*self._room(layer, key))
+        least, most = layer.room(key)
+        self.frame.limit(max(least, self.workspace.playhead.lowest), min(most, MOST_FRAMES))
         self.frame.show_value(layer.keyframes[key].frame)
         self.frame.setEnabled(not layer.locked)
-
-    def _room(self, layer: Layer, key: int) -> tuple[int, int]:
-        keys = layer.keyframes
-        least = keys[key - 1].frame + 1 if key else self.workspace.playhead.lowest
-        return least, keys[key + 1].frame - 1 if key + 1 < len(keys) else MOST_FRAMES
 
     def _move(self, frame: float) -> None:
         selection = self.workspace.selection

@@ -7,7 +7,6 @@ from typing import Protocol
 from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtWidgets import QApplication
 
-from app.timeline.keys import room
 from app.timeline.rows import Place
 from app.timeline.time_view import TimeView
 from app.workspace import Workspace
@@ -65,7 +64,8 @@ class KeyDrag:
         self._layer_id, self._key = place
         layer = workspace.session.document.layer(self._layer_id)
         self._start = self._frame = layer.keyframes[self._key].frame
-        self._least, self._most = room(layer, self._key, workspace.playhead.lowest)
+        least, self._most = layer.room(self._key)
+        self._least = max(least, workspace.playhead.lowest)
         self._grabbed = x
         self._dragging = False
 

@@ -15,6 +15,15 @@ def _tr(text: str) -> str:
     return QCoreApplication.translate("Timeline", text)
 
 
+def step_key(workspace: Workspace, direction: int) -> None:
+    """Go to the next key of any visible layer, or the last one before; choose it if it can be."""
+    workspace.playhead.step_key(direction)
+    layer = workspace.selection.layer
+    key = layer.key_at(workspace.playhead.frame) if layer else None
+    if layer is not None and key is not None:
+        workspace.selection.select_key(layer.id, key)
+
+
 def delete_key(workspace: Workspace) -> None:
     """Delete the chosen key."""
     layer = workspace.selection.layer
@@ -29,18 +38,12 @@ def nudge_key(workspace: Workspace, frames: int) -> None:
     if layer is None or _locked(workspace, layer):
         return
     key = workspace.selection.key
-    least, most = room(layer, key, workspace.playhead.lowest)
+    least, most = layer.room(key)
+    least = max(least, workspace.playhead.lowest)
     frame = min(max(layer.keyframes[key].frame + frames, least), most)
     gesture = ("nudge", layer.id, key)
     workspace.session.amend(gesture, _tr("Move keyframe"), move_keyframe, layer.id, key, int(frame))
     workspace.playhead.move_to(frame)
-
-
-def room(layer: Layer, key: int, lowest: int) -> tuple[int, float]:
-    """Return the first and last frame that a key can be moved to."""
-    before, after = layer.keyframes[:key], layer.keyframes[key + 1 :]
-    least = before[-1].frame + 1 if before else min(lowest, layer.keyframes[key].frame)
-    return least, after[0].frame - 1 if after else float("inf")
 
 
 def ease(workspace: Workspace, place: Place, easing: Easing) -> None:

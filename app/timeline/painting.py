@@ -23,8 +23,10 @@ def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, curr
     """Draw a span from key to key: a tinted bar with an arrow, or a plain stop for a hold."""
     c = colours()
     tint = QColor(layer.style.fill[:7] or c.muted)
-    tint.setAlphaF((0.55 if current else 0.35) if layer.visible else 0.12)
-    painter.setPen(Qt.PenStyle.NoPen)
+    tint.setAlphaF((0.45 if current else 0.3) if layer.visible else 0.12)
+    rim = QColor(c.muted)  # whatever the fill, the bar stands out from its ground
+    rim.setAlphaF(0.4 if layer.visible else 0.2)
+    painter.setPen(QPen(rim, 1))
     painter.setBrush(tint)
     painter.drawRoundedRect(box, 3.0, 3.0)
     start, end, y = box.left() + KEY + 4, box.right() - KEY - 4, box.center().y()

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QScrollArea, QWi
 
 from app.style import colours
 from app.timeline.headers import WIDTH, LayerHeaders
+from app.timeline.rows import ROW
 from app.timeline.ruler import Ruler
 from app.timeline.time_view import TimeView
 from app.timeline.tracks import Tracks
@@ -27,6 +28,10 @@ class Timeline(QWidget):
         self.headers = LayerHeaders(workspace)
         self.tracks = Tracks(workspace, self.view)
         self.setFocusProxy(self.tracks)
+        self._workspace = workspace
+        workspace.selection.changed.connect(  # queued: the rows are laid out by then
+            self._show_current_layer, Qt.ConnectionType.QueuedConnection
+        )
         self.transport.fit_asked.connect(self.view.fit)
         self.transport.frame_entered.connect(self.tracks.setFocus)
 
@@ -54,6 +59,13 @@ class Timeline(QWidget):
     def sizeHint(self) -> QSize:
         """Return room for the transport, the ruler and two layers."""
         return QSize(900, 180)
+
+    def _show_current_layer(self) -> None:
+        """Scroll to the row of the current layer."""
+        layer = self._workspace.selection.layer
+        if layer is not None:
+            row = self.tracks.rows.layers().index(layer)
+            self._scroll.ensureVisible(0, row * ROW + ROW // 2, 0, ROW // 2)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fit time into the new width."""

@@ -40,8 +40,8 @@ class Tracks(TimeWidget):
         self._keyboard: dict[str, Callable[[], object]] = {
             "Left": partial(workspace.playhead.step, -1),
             "Right": partial(workspace.playhead.step, 1),
-            "Ctrl+Left": partial(workspace.playhead.step_key, -1),
-            "Ctrl+Right": partial(workspace.playhead.step_key, 1),
+            "Ctrl+Left": partial(keys.step_key, workspace, -1),
+            "Ctrl+Right": partial(keys.step_key, workspace, 1),
             "Home": workspace.playhead.to_start,
             "End": workspace.playhead.to_end,
             "Space": workspace.playhead.toggle,

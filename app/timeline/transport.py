@@ -12,6 +12,7 @@ from app.document.playhead import Loop
 from app.fields.frame_rate import FrameRateField
 from app.fields.number import NumberField
 from app.icons import set_icon
+from app.timeline import keys
 from app.workspace import Workspace
 
 MOST_FRAMES = 1_000_000
@@ -72,7 +73,7 @@ class Transport(QWidget):
         for loop, text in self._loop_names().items():
             set_icon(menu.addAction(text, partial(playhead.set_loop, loop)), LOOP_ICONS[loop])
         self.loop.setMenu(menu)
-        step, jump = playhead.step, playhead.step_key
+        step, jump = playhead.step, partial(keys.step_key, self._workspace)
         return [
             _button("first", self.tr("To the start (Home)"), playhead.to_start),
             _button("previous-key", self.tr("Previous key (Ctrl+Left)"), partial(jump, -1)),

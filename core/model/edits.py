@@ -102,9 +102,8 @@ def move_keyframe(document: Document, layer_id: int, key: int, frame: int) -> Do
 
     def edit(layer: Layer) -> Layer:
         _keyframe(layer, key)
-        before = layer.keyframes[key - 1].frame if key > 0 else -np.inf
-        after = layer.keyframes[key + 1].frame if key + 1 < len(layer.keyframes) else np.inf
-        if not before < frame < after:
+        least, most = layer.room(key)
+        if not least <= frame <= most:
             raise EditError(f"Frame {frame} is not between the neighbouring keyframes.")
         return _with_key(layer, key, frame=frame)
 

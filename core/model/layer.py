@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import count, product
+from math import inf
 from string import ascii_lowercase
 
 from core.model.easing import LINEAR, Easing
@@ -56,6 +57,17 @@ class Layer:
         index = min(max(bisect_right(frames, frame) - 1, 0), self.spans - 1)
         t = (frame - frames[index]) / (frames[index + 1] - frames[index])
         return index, min(max(t, 0.0), 1.0)
+
+    def room(self, key: int) -> tuple[float, float]:
+        """Return the least and the greatest frame that a keyframe can have between its neighbours.
+
+        They are infinite where there is no neighbour.
+        """
+        before, after = self.keyframes[:key], self.keyframes[key + 1 :]
+        return (
+            before[-1].frame + 1 if before else -inf,
+            after[0].frame - 1 if after else inf,
+        )
 
     def key_at(self, frame: float) -> int | None:
         """Return the index of the keyframe at exactly this frame, if there is one."""

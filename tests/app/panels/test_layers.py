@@ -13,6 +13,7 @@ from app.panels.layers import LayersPanel
 from app.workspace import Workspace
 from core.model import Document
 from core.model.edits import update_layer
+from tests.app.panels.conftest import a_layer
 
 Key = Qt.Key
 LEFT = Qt.MouseButton.LeftButton
@@ -193,6 +194,15 @@ def test_without_layers_only_adding_is_offered(panel: LayersPanel, workspace: Wo
     buttons = panel.findChildren(QToolButton)
     enabled = [b.toolTip() for b in buttons if b.isEnabled() and b.toolTip()]
     assert enabled == ["Add a layer"]
+
+
+def test_another_document_shows_its_own_layers_and_the_top_one_is_chosen(
+    panel: LayersPanel, workspace: Workspace
+) -> None:
+    workspace.session.replace(Document((a_layer(7, 1, 5), a_layer(8, 1))))
+    assert shown_names(panel) == ["layer 8", "layer 7"]
+    assert workspace.selection.layer.id == 8
+    assert panel.list.currentIndex().row() == 0
 
 
 def test_a_change_of_colour_keeps_the_row_that_is_being_looked_at(

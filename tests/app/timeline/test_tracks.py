@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.jobs.solver import SpanState
 from app.timeline.painting import BAND, paint_state
+from app.timeline.rows import ROW
 from app.timeline.timeline import Timeline
 from app.workspace import Workspace
 from core.model import Document
@@ -202,6 +203,17 @@ def test_the_arrows_step_frames_and_keys(timeline: Timeline, workspace: Workspac
     assert seen == [2, 9, 13, 12, 9, 25, 1]
 
 
+def test_a_key_that_is_stepped_to_is_the_one_that_delete_removes(
+    timeline: Timeline, workspace: Workspace
+) -> None:
+    workspace.selection.select_layer(1)
+    workspace.playhead.move_to(10)
+    QTest.keyClick(timeline.tracks, Key.Key_Right, CTRL)
+    assert chosen(workspace) == (1, 1)
+    QTest.keyClick(timeline.tracks, Key.Key_Delete)
+    assert frames(workspace) == [1, 25]
+
+
 def test_space_plays_and_stops(timeline: Timeline, workspace: Workspace) -> None:
     QTest.keyClick(timeline.tracks, Key.Key_Space)
     assert workspace.playhead.playing
@@ -242,6 +254,21 @@ def test_up_and_down_choose_layers(timeline: Timeline, workspace: Workspace) -> 
 
 
 # -- what is said and shown --------------------------------------------------------------------
+
+
+def test_the_row_of_a_layer_that_is_chosen_elsewhere_is_scrolled_to(
+    timeline: Timeline, workspace: Workspace, qtbot: QtBot
+) -> None:
+    workspace.session.replace(Document(tuple(layer(i, 1, 9) for i in range(1, 21))))
+
+    def in_view() -> bool:
+        row = timeline.tracks.rows.layers().index(workspace.selection.layer)
+        top = timeline.tracks.mapTo(timeline, QPoint(0, row * ROW)).y()
+        return timeline.ruler.geometry().bottom() < top <= timeline.height() - ROW
+
+    for layer_id in (1, 20, 7):
+        workspace.selection.select_layer(layer_id)
+        qtbot.waitUntil(in_view)
 
 
 def test_the_description_names_what_is_chosen(timeline: Timeline, workspace: Workspace) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from itertools import islice
+from math import inf
 
 import pytest
 from hypothesis import given
@@ -41,6 +42,18 @@ def test_a_key_is_found_at_its_frame_and_nowhere_else(layer: Layer, frame: float
         assert layer.key_at(key.frame) == index
     on_a_key = frame in {key.frame for key in layer.keyframes}
     assert (layer.key_at(frame) is not None) == on_a_key
+
+
+@given(layers())
+def test_every_frame_in_a_keys_room_keeps_the_keys_in_order_and_no_other_does(
+    layer: Layer,
+) -> None:
+    for key in range(len(layer.keyframes)):
+        least, most = layer.room(key)
+        for frame in {least - 1, least, most, most + 1} - {inf, -inf}:
+            frames = [other.frame for other in layer.keyframes]
+            frames[key] = frame
+            assert (frames == sorted(set(frames))) == (least <= frame <= most)
 
 
 def test_marks_are_lettered_a_to_z_and_on_from_aa() -> None:
