@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, QVariantAnimation, Signal
+from functools import partial
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, QTimer, QVariantAnimation, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.camera import Camera
+from app.canvas.hand import HAND_KEYS, Hand
 from app.canvas.moment import Moment, Role, moment_of
 from app.canvas.pane import Pane
 from app.canvas.pointer import Pointer
@@ -26,8 +29,15 @@ SHARES = {Role.SOURCE: 4, Role.IN_BETWEEN: 5, Role.TARGET: 4, Role.OVERLAY: 1}
 """Widths of the panes that are shown together, in parts."""
 TOOLS: tuple[type[Tool], ...] = (SelectTool, NodesTool, PenTool, FreehandTool, MarksTool)
 PULSES, PULSE_MS = 3, 600
-HAND_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_H)
-"""Held, they make the left button move the view; a tap of Space plays."""
+PATIENCE_MS = 250
+"""How long a stale in-between is shown as if it were up to date."""
+ZOOM_KEYS = {Qt.Key.Key_Plus: 1.25, Qt.Key.Key_Equal: 1.25, Qt.Key.Key_Minus: 0.8}
+SIGN_KEYS = (
+    Qt.KeyboardModifier.ControlModifier
+    | Qt.KeyboardModifier.ShiftModifier
+    | Qt.KeyboardModifier.KeypadModifier
+)
+"""What may be held to type a plus on some keyboard."""
 
 
 class Canvas(QWidget):
@@ -43,13 +53,17 @@ class Canvas(QWidget):
         self._workspace = workspace
         self._error: MorphError | None = None
         self._hint = ""
-        self._hand_from: tuple[QPointF, float] | None = None
+        self._seen: tuple[Tool, object] | None = None
         self.camera = Camera(self)
         self._tools = {tool.name: tool(workspace, self) for tool in TOOLS}
         self._tool = self._tools[SelectTool.name]
         self._splitter = PaneSplitter(self)
         self.panes = {role: Pane(role, workspace, self.camera, self._splitter) for role in Role}
+        self._hand = Hand(self.camera, [pane.view for pane in self.panes.values()])
         self._lay_out()
+        self._late = False
+        self._patience = QTimer(self, singleShot=True, interval=PATIENCE_MS)
+        self._patience.timeout.connect(self._on_late)
         self._refresh_due = False
         self._moment: Moment | None = None
         self._refresh_wanted.connect(self._refresh, Qt.ConnectionType.QueuedConnection)
@@ -127,13 +141,26 @@ class Canvas(QWidget):
     def _refresh(self) -> None:
         """Show what changed: while the playhead moves within a span, the panes of keys stay."""
         self._refresh_due = False
-        before, self._moment = self._moment, moment_of(self._workspace)
+        self._keep_patience()
+        before, self._moment = self._moment, moment_of(self._workspace, patient=not self._late)
         keys_stay = before is not None and before.span == self._moment.span
         for pane in self._shown_panes():
             if pane.live or not keys_stay:
                 pane.look(self._moment, self._error)
         self._tool.look_again()
         self._after_tool()
+
+    def _keep_patience(self) -> None:
+        """Say nothing of what is solved in a moment: dimming it would only flicker."""
+        if not self._workspace.solver.busy:
+            self._patience.stop()
+            self._late = False
+        elif not self._late and not self._patience.isActive():
+            self._patience.start()
+
+    def _on_late(self) -> None:
+        self._late = True
+        self._refresh_soon()
 
     def _refresh_soon(self) -> None:
         """Show once, before the next paint, what several signals announce."""
@@ -209,9 +236,10 @@ class Canvas(QWidget):
     def _on_key_released(self, event: QKeyEvent) -> None:
         if event.isAutoRepeat():
             return
-        if self._hand_from is not None and event.key() in HAND_KEYS:
+        if self._hand.held and event.key() in HAND_KEYS:
             event.accept()
-            self._let_go(tap=event.key() == Qt.Key.Key_Space)
+            if self._hand.let_go() and event.key() == Qt.Key.Key_Space:
+                self._workspace.playhead.toggle()
         self._tool.key_released()
 
     def _command(self, event: QKeyEvent) -> Command | None:
@@ -219,7 +247,9 @@ class Canvas(QWidget):
         key, modifiers = event.key(), event.modifiers()
         plain = not modifiers
         if plain and key in HAND_KEYS:
-            return self._take_hand
+            return self._hand.take
+        if key in ZOOM_KEYS and not modifiers & ~SIGN_KEYS:
+            return partial(self.camera.zoom_at, self.camera.centre, ZOOM_KEYS[key])
         if plain and key == Qt.Key.Key_Escape:
             if self._tool.busy:
                 return self._tool.abandon
@@ -231,20 +261,6 @@ class Canvas(QWidget):
     def _put_tool_away(self) -> None:
         self.set_tool(SelectTool.name)
 
-    def _take_hand(self) -> None:
-        if self._hand_from is None:
-            self._hand_from = self.camera.centre, self.camera.zoom
-            for pane in self._shown_panes():
-                pane.view.hand = True
-
-    def _let_go(self, *, tap: bool) -> None:
-        unmoved = self._hand_from == (self.camera.centre, self.camera.zoom)
-        self._hand_from = None
-        for pane in self.panes.values():
-            pane.view.hand = False
-        if tap and unmoved:
-            self._workspace.playhead.toggle()
-
     def _on_focus_changed(self) -> None:
         """Make the key of the pane that is worked in the selected one, for the keys to act on."""
         layer = self._workspace.selection.layer
@@ -254,9 +270,11 @@ class Canvas(QWidget):
                 self._workspace.selection.select_key(layer.id, pane.key)
 
     def _after_tool(self) -> None:
-        """Show what the tool changed about itself."""
+        """Show what the tool changed about itself; mere hovering mostly changes nothing."""
+        seen = self._tool, self._tool.seen
         for pane in self._shown_panes():
-            pane.follow(self._tool)
+            pane.follow(self._tool, repaint=seen != self._seen)
+        self._seen = seen
         if self._tool.hint != self._hint:
             self._hint = self._tool.hint
             self.hint_changed.emit(self._hint)
@@ -269,7 +287,7 @@ class Canvas(QWidget):
         if event.type() == QEvent.Type.PaletteChange:
             self._refresh_soon()
         elif event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
-            self._let_go(tap=False)
+            self._hand.let_go()
 
     def _listen(self) -> None:
         w = self._workspace

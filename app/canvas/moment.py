@@ -48,29 +48,32 @@ class Moment:
         return None if self.morph is None else self.morph.at(self.s)
 
 
-def moment_of(workspace: Workspace) -> Moment:
-    """Take a look."""
+def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
+    """Take a look; a patient one takes what is being solved right now for solved."""
     document, frame = workspace.session.document, workspace.playhead.frame
-    solver, layer = workspace.solver, workspace.selection.layer
+    layer = workspace.selection.layer
+
+    def state_of(layer: Layer) -> SpanState:
+        state = workspace.solver.state(layer.id, layer.span_at(frame)[0])
+        return SpanState.SOLVED if patient and state is SpanState.SOLVING else state
+
     stale = frozenset(
         other.id
         for other in document.layers
-        if other.spans and solver.state(other.id, other.span_at(frame)[0]) is not SpanState.SOLVED
+        if 0 < progress(other, frame) < 1 and state_of(other) is not SpanState.SOLVED
     )
     if layer is None or not layer.spans:
         return Moment(document, frame, layer, stale=stale)
     span, t = layer.span_at(frame)
-    return Moment(
-        document,
-        frame,
-        layer,
-        span,
-        t,
-        layer.keyframes[span].easing(t),
-        solver.morph_of(span_of(layer, span)),
-        solver.state(layer.id, span),
-        stale,
-    )
+    morph = workspace.solver.morph_of(span_of(layer, span))
+    s = progress(layer, frame)
+    return Moment(document, frame, layer, span, t, s, morph, state_of(layer), stale)
+
+
+def progress(layer: Layer, frame: float) -> float:
+    """Return s: how far a layer is from one key to the next, in shape."""
+    span, t = layer.span_at(frame)
+    return layer.keyframes[span].easing(t)
 
 
 def edited_key(workspace: Workspace, role: Role) -> int | None:

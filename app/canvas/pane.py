@@ -96,11 +96,12 @@ class Pane(QWidget):
         """What the title says about being up to date; empty when there is nothing to say."""
         return self._header.tag
 
-    def follow(self, tool: Tool) -> None:
+    def follow(self, tool: Tool, *, repaint: bool) -> None:
         """Show what the tool in hand has changed about itself."""
         self.view.rest_cursor(tool.cursor)
         self.tool_overlay.tool = tool
-        self.tool_overlay.update()
+        if repaint:
+            self.tool_overlay.update()
         self._invitation.make_room(tool.busy)
 
     def set_focused(self, focused: bool) -> None:

@@ -83,6 +83,11 @@ class FreehandTool(DrawingTool):
         text = self.tr("Press and draw around the whole shape: it becomes {outcome}")
         return text.format(outcome=self.outcome(self._pane))
 
+    @property
+    def seen(self) -> object:
+        """Something new with every event, while there is something to see."""
+        return object() if self._gesture else None
+
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint the stroke so far, and how it would close."""
         if isinstance(self._gesture, Stroke) and pane is self._pane:

@@ -73,7 +73,7 @@ class MarksTool(Tool):
     def hover(self, pointer: Pointer) -> None:
         """Find the mark under the mouse, or where a click would place one."""
         self._pane, self._mark, self._places = pointer.pane, self._mark_at(pointer), []
-        layer, key = self.selection.layer, pointer.pane.key
+        layer, key = self.layer, pointer.pane.key
         if self._mark is None and layer is not None and key is not None:
             place = self._place_at(pointer)
             self._places = composed.mates(layer, key, place) if place else []
@@ -109,16 +109,16 @@ class MarksTool(Tool):
         if place is None:
             self.selection.select_mark(None)
             return
-        letter = _next_letter(layer)
-        text = self.tr("Place mark {letter}").format(letter=letter)
-        if self.session.apply(text, composed.place_mark, layer.id, key, place):
-            self._placed = letter
-            self.selection.select_mark(len(layer.labels))
+        self._add(layer, key, place)
 
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
-        """Step through marks, move the selected one along the outline, delete it."""
-        layer, mark = self.selection.layer, self.selection.mark
-        if layer is None or layer.locked or self.busy or not layer.labels:
+        """Add a mark, step through them, move the selected one along the outline, delete it."""
+        layer, mark = self.layer, self.selection.mark
+        if layer is None:
+            return None
+        if key == Qt.Key.Key_Insert:
+            return self._insert
+        if not layer.labels:
             return None
         if key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             return self._previous if key == Qt.Key.Key_Backtab else self._next
@@ -151,6 +151,11 @@ class MarksTool(Tool):
         else:
             text = self.tr("Click a corner of the outline to place mark {letter}")
         return text.format(letter=letter)
+
+    @property
+    def seen(self) -> object:
+        """What is under the mouse."""
+        return self._pane, self._mark, tuple(self._places)
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint where a click would place a mark, here and on the other keyframes."""
@@ -212,6 +217,27 @@ class MarksTool(Tool):
         along = _along(keyframe.outline, keyframe.marks[mark], step)
         text = self.tr("Move mark {letter}").format(letter=layer.labels[mark])
         self.session.amend(self.held, text, composed.slide_mark, layer.id, key, mark, along)
+
+    def _insert(self) -> None:
+        """Place a mark at the first node without one, after the selected mark."""
+        layer, keyframe, mark = self.selection.layer, self.selection.keyframe, self.selection.mark
+        assert layer is not None
+        assert keyframe is not None
+        taken = {(place.ring, place.at) for place in keyframe.marks}
+        start = RingPoint(0, 0.0) if mark is None else keyframe.marks[mark]
+        count = len(keyframe.outline.rings[start.ring])
+        nodes = [(int(start.at) + i) % count for i in range(count)]
+        free = (node for node in nodes if (start.ring, float(node)) not in taken)
+        node = next(free, None)
+        if node is not None:
+            self._add(layer, self.selection.key, RingPoint(start.ring, float(node)))
+
+    def _add(self, layer: Layer, key: int, place: RingPoint) -> None:
+        letter = _next_letter(layer)
+        text = self.tr("Place mark {letter}").format(letter=letter)
+        if self.session.apply(text, composed.place_mark, layer.id, key, place):
+            self._placed = letter
+            self.selection.select_mark(len(layer.labels))
 
     def _delete(self) -> None:
         layer, mark = self.selection.layer, self.selection.mark

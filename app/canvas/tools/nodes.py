@@ -24,7 +24,7 @@ from app.canvas.tools.node_drags import Marquee, MoveHandle, MoveNodes
 from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
 from app.style import colours
 from app.workspace import Workspace
-from core.model import Outline, edits
+from core.model import Outline, RingPoint, edits
 from core.model.outline import Array
 
 if TYPE_CHECKING:
@@ -78,9 +78,7 @@ class NodesTool(Tool):
             return
         key = self.selection.key
         if isinstance(hit, EdgeHit):
-            place = hit.place
-            if self.session.apply(self.tr("Add node"), edits.insert_node, layer.id, key, place):
-                self.selection.select_nodes(frozenset({(place.ring, int(place.at) + 1)}))
+            self._add(layer.id, key, hit.place)
         elif isinstance(hit, NodeHit):
             handles = _other_kind(keyframe.outline, hit.node)
             text = self.tr("Change node")
@@ -88,12 +86,14 @@ class NodesTool(Tool):
         self.hover(pointer)
 
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
-        """Step through nodes, nudge, delete."""
-        layer, nodes = self.selection.layer, self.selection.nodes
-        if layer is None or layer.locked or self.busy:
+        """Step through nodes; nudge, add and delete them."""
+        layer, nodes = self.layer, self.selection.nodes
+        if layer is None:
             return None
         if key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             return self._previous if key == Qt.Key.Key_Backtab else self._next
+        if key == Qt.Key.Key_Insert:
+            return self._insert
         step = arrow_step(key, modifiers)
         if nodes and step is not None:
             return lambda: self._nudge(layer.id, self.selection.key, nodes, step)
@@ -118,10 +118,16 @@ class NodesTool(Tool):
             return self.tr("Arrow keys move the selected nodes, with Shift by 10; Del deletes them")
         return self.tr("Click a node, or drag a rectangle around several; Tab goes through them")
 
+    @property
+    def seen(self) -> object:
+        """What is under the mouse, and how far a marquee reaches."""
+        marquee = isinstance(self._gesture, Marquee)
+        return self._pane, self._hit, tuple(self._gesture.now) if marquee else None
+
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint the nodes of the key in the pane, and what is under the mouse."""
-        keyframe, layer = pane.keyframe, self.selection.layer
-        if keyframe is None or layer is None or layer.locked or not layer.visible:
+        keyframe = pane.keyframe
+        if keyframe is None or self.fixed:
             return
         chosen = self.selection.nodes if pane.key == self.selection.key else frozenset()
         paint_nodes(painter, pane.view, keyframe.outline, pane.tint, chosen)
@@ -177,6 +183,17 @@ class NodesTool(Tool):
     def _nudge(self, layer_id: int, key: int, nodes: frozenset[Node], step: Array) -> None:
         text = self.tr("Move nodes")
         self.session.amend(self.held, text, composed.move_nodes, layer_id, key, nodes, step)
+
+    def _insert(self) -> None:
+        """Add a node in the middle of the side after the last selected node."""
+        layer, nodes = self.selection.layer, self._all_nodes()
+        assert layer is not None
+        ring, node = max(self.selection.nodes, default=nodes[0])
+        self._add(layer.id, self.selection.key, RingPoint(ring, node + 0.5))
+
+    def _add(self, layer_id: int, key: int, place: RingPoint) -> None:
+        if self.session.apply(self.tr("Add node"), edits.insert_node, layer_id, key, place):
+            self.selection.select_nodes(frozenset({(place.ring, int(place.at) + 1)}))
 
     def _delete(self) -> None:
         layer, nodes = self.selection.layer, self.selection.nodes

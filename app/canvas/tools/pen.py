@@ -144,6 +144,11 @@ class PenTool(DrawingTool):
             return self.tr("Click to close the outline")
         return self.tr("Click to set the next node; click the first one or press Enter to close")
 
+    @property
+    def seen(self) -> object:
+        """Something new with every event, while there is something to see."""
+        return object() if self._points else None
+
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint the outline so far, and where it goes next."""
         if pane is not self._pane or not self._points:

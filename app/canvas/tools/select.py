@@ -116,8 +116,8 @@ class SelectTool(Tool):
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Nudge the outline with the arrow keys."""
         step = arrow_step(key, modifiers)
-        layer = self.selection.layer
-        if step is None or layer is None or layer.locked or self.busy:
+        layer = self.layer
+        if step is None or layer is None:
             return None
         return lambda: self._nudge(layer.id, self.selection.key, step)
 
@@ -136,8 +136,8 @@ class SelectTool(Tool):
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint the box of the key that is edited in the pane."""
-        keyframe, layer = pane.keyframe, self.selection.layer
-        if keyframe is None or layer is None or layer.locked or not layer.visible:
+        keyframe = pane.keyframe
+        if keyframe is None or self.fixed:
             return
         self.paint_key(painter, pane)
         box = TransformBox.around(keyframe.outline)

@@ -90,6 +90,11 @@ class Tool(QObject):
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint handles and the like, in pixels of the pane's view."""
 
+    @property
+    def seen(self) -> object:
+        """What ``paint`` shows besides document and selection; while it is equal, none is due."""
+        return None
+
     def paint_key(self, painter: QPainter, pane: Pane) -> None:
         """Trace the outline of the key that is edited where something else is seen."""
         if pane.live and pane.keyframe is not None:
@@ -165,6 +170,11 @@ class Tool(QObject):
         """Let the next key begin another undo step."""
         self.held = object()
 
+    @property
+    def layer(self) -> Layer | None:
+        """The current layer, if it may be edited and no gesture is at it."""
+        return None if self.fixed or self._gesture is not None else self.selection.layer
+
     # -- shared --------------------------------------------------------------------------------
 
     def editable(self, pane: Pane) -> Layer | None:
@@ -175,10 +185,16 @@ class Tool(QObject):
         self.selection.select_key(layer.id, pane.key)
         return layer
 
+    @property
+    def fixed(self) -> bool:
+        """Whether the current layer is locked or hidden."""
+        layer = self.selection.layer
+        return layer is not None and (layer.locked or not layer.visible)
+
     def unlocked(self) -> bool:
         """Return whether the current layer may be edited, or say why not."""
         layer = self.selection.layer
-        if layer is None or (layer.visible and not layer.locked):
+        if layer is None or not self.fixed:
             return True
         state = self.tr("locked") if layer.locked else self.tr("hidden")
         refusal = self.tr("The layer “{name}” is {state}: change that in the layers panel first")

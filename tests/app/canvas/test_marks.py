@@ -174,3 +174,12 @@ def test_a_locked_layer_refuses_marks(open_canvas):
     hand.click(SOURCE, SQUARE[1])
     hand.drag(SOURCE, SQUARE[0], (450, 150))
     assert hand.document.layers[0] is layer
+
+
+def test_insert_places_a_mark_at_the_next_free_corner(hand: Hand):
+    hand.key(SOURCE, Key.Key_Tab)
+    hand.key(SOURCE, Key.Key_Insert)
+    hand.key(SOURCE, Key.Key_Insert)
+    hand.key(SOURCE, Key.Key_Insert)
+    assert hand.document.layers[0].labels == ("a", "b", "c", "d")
+    assert [tuple(place_of(hand, 0, mark)) for mark in (2, 3)] == [SQUARE[1], SQUARE[3]]

@@ -222,3 +222,10 @@ def test_a_locked_or_hidden_layer_refuses_with_a_reason(open_canvas, change, wor
     hand.drag(SOURCE, SQUARE[1], (700, 100))
     assert hand.document.layers[0] is layer
     assert any(f"“Card” is {word}" in hint for hint in hints)
+
+
+def test_insert_adds_a_node_in_the_middle_of_the_side(hand: Hand):
+    hand.key(SOURCE, Key.Key_Tab)
+    hand.key(SOURCE, Key.Key_Insert)
+    assert tuple(hand.points()[1]) == middle(0, 1)
+    assert selected(hand) == {1}

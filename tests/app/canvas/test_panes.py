@@ -137,7 +137,7 @@ def test_an_in_between_is_dimmed_and_tagged_until_it_is_solved(open_canvas, qtbo
     gate.clear()
     hand.canvas.set_tool("nodes")
     hand.drag(SOURCE, SQUARE[2], (620, 420))
-    assert hand.pane(BETWEEN).state == "updating…"
+    qtbot.waitUntil(lambda: hand.pane(BETWEEN).state == "updating…")
     assert colour_at(hand, BETWEEN, (450, 250)) not in ("#ff0000", "#ffffff")
     gate.set()
     qtbot.waitUntil(lambda: hand.pane(BETWEEN).state == "")
@@ -290,3 +290,16 @@ def test_hints_are_never_empty(open_canvas):
                     hand.move(role, place)
         assert len(set(hints)) > 5
         assert all(hints)
+
+
+def test_what_is_solved_in_a_moment_never_flickers(open_canvas, monkeypatch):
+    monkeypatch.setattr("app.canvas.canvas.PATIENCE_MS", 60_000)
+    hand = open_canvas(a_document())
+    show(hand, 13)
+    states: list[str] = []
+    hand.workspace.solver.updated.connect(lambda: states.append(hand.pane(BETWEEN).state))
+    hand.canvas.set_tool("nodes")
+    hand.drag(SOURCE, SQUARE[2], (620, 420))
+    QApplication.processEvents()
+    assert states
+    assert set(states) == {""}

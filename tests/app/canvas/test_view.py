@@ -200,3 +200,22 @@ def test_panes_keep_their_shares_of_the_width(hand: Hand):
     QApplication.processEvents()
     np.testing.assert_allclose(np.array(widths()) / sum(widths()), before, atol=0.01)
     assert widths()[1] == max(widths())
+
+
+def test_plus_and_minus_zoom(hand: Hand):
+    zoom = hand.canvas.camera.zoom
+    hand.key(SOURCE, Key.Key_Plus)
+    assert hand.canvas.camera.zoom == pytest.approx(1.25 * zoom)
+    hand.key(SOURCE, Key.Key_Minus, Qt.KeyboardModifier.ControlModifier)
+    assert hand.canvas.camera.zoom == pytest.approx(zoom)
+
+
+def test_mere_hovering_repaints_nothing(hand: Hand):
+    overlay = hand.pane(SOURCE).tool_overlay
+    painted: list[object] = []
+    overlay.draw = painted.append
+    hand.move(SOURCE, (450, 300))
+    painted.clear()
+    for x in range(400, 450, 5):
+        hand.move(SOURCE, (x, 300))
+    assert painted == []
