@@ -58,7 +58,8 @@ def places_of(where: Where, keyframe: Keyframe) -> Array:
     points = [outline.position(keyframe.marks[m]) for m in where.marks if m < len(keyframe.marks)]
     if where.point is not None:
         points.append(np.array(where.point))
-    elif where.ring is not None and where.node is not None and where.ring < len(outline.rings):
+    elif where.ring is not None and where.ring < len(outline.rings):
         nodes = outline.rings[where.ring].points
-        points.append(nodes[where.node % len(nodes)])
+        whole = where.node is None
+        points.append(nodes.mean(axis=0) if whole else nodes[where.node % len(nodes)])
     return np.array(points).reshape(-1, 2)

@@ -54,7 +54,7 @@ class Pane(QWidget):
         self._mesh = MeshOverlay(self.view, 5)
         self._marks, self.tool_overlay = MarksOverlay(self.view), ToolOverlay(self.view)
         self.error_ring, self._invitation = ErrorRing(self.view), Invitation(self.view)
-        overlays = (self._invitation, self._marks, self.tool_overlay, self.error_ring)
+        overlays = (self._invitation, self.tool_overlay, self._marks, self.error_ring)
         for z, item in enumerate(overlays):
             self.view.add_overlay(item, 10 + z)
 

@@ -41,5 +41,6 @@ class Pointer:
 
     @property
     def alt(self) -> bool:
-        """Whether Alt is held."""
-        return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
+        """Whether Alt is held, or Ctrl, as some desktops keep Alt with the mouse to themselves."""
+        keys = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.ControlModifier
+        return bool(self.modifiers & keys)

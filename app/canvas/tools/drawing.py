@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from app.canvas.moment import Role
+from app.canvas.pointer import Pointer
 from app.canvas.tools import edits as composed
 from app.canvas.tools.tool import Tool
 from app.workspace import Workspace
@@ -26,16 +27,24 @@ class DrawingTool(Tool):
         super().__init__(workspace, parent)
         self._pane: Pane | None = None
         """The pane under the mouse, or the one that is drawn in."""
+        self._hole = False
 
-    def may_draw(self, pane: Pane) -> bool:
-        """Return whether an outline may be drawn in a pane, or say why not."""
-        makes_layer = self.selection.layer is None or pane.role is Role.IN_BETWEEN
-        return makes_layer or self.unlocked()
+    def begin(self, pointer: Pointer) -> bool:
+        """Begin to draw, or say why that is not possible; with Alt it will be a hole."""
+        makes_layer = self.selection.layer is None or pointer.pane.role is Role.IN_BETWEEN
+        if not makes_layer and not self.unlocked():
+            return False
+        self._pane = pointer.pane
+        self._hole = pointer.alt and pointer.pane.key is not None
+        return True
 
     def finish(self, ring: Ring, pane: Pane) -> None:
         """Put a drawn ring where the pane says, as one undo step."""
         outline, layer = Outline((ring,)), self.selection.layer
         frame = self.new_frame(pane)
+        if layer is not None and self._hole:
+            self.session.apply(self.tr("Cut hole"), composed.cut_hole, layer.id, pane.key, ring)
+            return
         if layer is None or pane.role is Role.IN_BETWEEN:
             self._add_layer(outline, frame)
             return
@@ -64,7 +73,7 @@ class DrawingTool(Tool):
         if layer is None or pane.role is Role.IN_BETWEEN:
             return self.tr("a new layer")
         if layer.key_at(frame) is not None:
-            text = self.tr("a new outline for frame {frame} of “{name}”")
+            text = self.tr("a new outline for frame {frame} of “{name}”, or with Alt a hole in it")
         else:
             text = self.tr("a new key at frame {frame} of “{name}”")
         return text.format(frame=frame, name=layer.name)

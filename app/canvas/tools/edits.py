@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from core.errors import EditError
+from core.geometry.flatten import flatten
 from core.geometry.places import nearest_place, tracks
-from core.model import Document, Keyframe, Layer, Outline, RingPoint, edits
+from core.model import Document, Keyframe, Layer, Outline, Ring, RingPoint, edits
 from core.model.outline import Array
 from core.morph.suggest import mate
 
@@ -31,10 +34,43 @@ def move_nodes(document: Document, layer_id: int, key: int, nodes: Nodes, by: Ar
 
 
 def delete_nodes(document: Document, layer_id: int, key: int, nodes: Nodes) -> Document:
-    """Delete nodes of any rings; all or none."""
-    for ring, members in by_ring(nodes).items():
-        document = edits.delete_nodes(document, layer_id, key, ring, members)
+    """Delete nodes of any rings, all or none; a hole that would keep none is filled."""
+    outline = document.layer(layer_id).keyframes[key].outline
+    for ring, members in reversed(by_ring(nodes).items()):  # so that the indices before it hold
+        if ring > 0 and len(members) == len(outline.rings[ring]):
+            document = _fill_hole(document, layer_id, key, ring)
+        else:
+            document = edits.delete_nodes(document, layer_id, key, ring, members)
     return document
+
+
+def cut_hole(document: Document, layer_id: int, key: int, ring: Ring) -> Document:
+    """Add a ring to a keyframe as a hole; EditError when it is not inside the outline."""
+    from shapely.geometry import Polygon  # loads with the first hole, not with the window
+
+    keyframe = document.layer(layer_id).keyframes[key]
+    outline = Outline((*keyframe.outline.rings, ring))
+    shape, *holes = (Polygon(line.points) for line in flatten(outline))
+    inside = shape.is_valid and shape.contains(holes[-1])
+    if not inside or any(holes[-1].intersects(other) for other in holes[:-1]):
+        raise EditError(
+            "The hole does not lie inside the shape.",
+            hint="Draw it again, within the outline and clear of other holes.",
+        )
+    return edits.replace_outline(document, layer_id, key, outline, keyframe.marks)
+
+
+def _fill_hole(document: Document, layer_id: int, key: int, ring: int) -> Document:
+    """Remove a hole; marks on it go to the nearest place that is left."""
+    old = document.layer(layer_id).keyframes[key]
+    outline = Outline((*old.outline.rings[:ring], *old.outline.rings[ring + 1 :]))
+
+    def shifted(mark: RingPoint) -> RingPoint:
+        if mark.ring == ring:
+            return nearest_place(outline, old.outline.position(mark))[0]
+        return replace(mark, ring=mark.ring - (mark.ring > ring))
+
+    return edits.replace_outline(document, layer_id, key, outline, [*map(shifted, old.marks)])
 
 
 def place_mark(document: Document, layer_id: int, key: int, place: RingPoint) -> Document:

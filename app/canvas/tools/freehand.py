@@ -60,9 +60,8 @@ class FreehandTool(DrawingTool):
 
     def grab(self, pointer: Pointer) -> Gesture | None:
         """Begin a stroke."""
-        if not self.may_draw(pointer.pane):
+        if not self.begin(pointer):
             return None
-        self._pane = pointer.pane
         return Stroke(self, [pointer.position])
 
     def fit(self, points: list[Array], pointer: Pointer) -> None:

@@ -81,9 +81,8 @@ class PenTool(DrawingTool):
     def grab(self, pointer: Pointer) -> Gesture | None:
         """Set a node, or take the first one again to close."""
         if not self._points:
-            if not self.may_draw(pointer.pane):
+            if not self.begin(pointer):
                 return None
-            self._pane = pointer.pane
         elif pointer.pane is not self._pane:
             self.notice = self.tr("Close the outline first (Enter), or abandon it (Esc)")
             return None

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.canvas.tools.edits import (
+    cut_hole,
     delete_nodes,
     draw_key,
     mates,
@@ -15,7 +16,7 @@ from app.canvas.tools.edits import (
     slide_mark,
 )
 from core.errors import EditError
-from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.model import Document, Keyframe, Layer, Outline, Ring, RingPoint
 from core.model.edits import add_mark
 from tests.app.canvas.conftest import LEANING, SQUARE, a_document
 
@@ -90,3 +91,20 @@ def test_sliding_a_mark_forth_and_back_returns_it(length: float):
     there = slide_mark(a_document(), 1, 0, 0, length)
     back = slide_mark(there, 1, 0, 0, -length)
     np.testing.assert_allclose(places(back, 0), places(a_document(), 0), atol=1e-6)
+
+
+def test_a_hole_whose_nodes_are_all_deleted_is_filled():
+    document = add_mark(with_hole(), 1, [RingPoint(1, 2.0)])
+    filled = delete_nodes(document, 1, 0, frozenset((1, node) for node in range(4)))
+    key = filled.layers[0].keyframes[0]
+    assert len(key.outline.rings) == 1
+    assert key.marks[0].ring == 0
+
+
+def test_holes_must_lie_inside_and_apart():
+    triangle = np.array([[420.0, 170.0], [480.0, 170.0], [450.0, 200.0]])
+    document = cut_hole(with_hole(), 1, 0, Ring.polygon(triangle))
+    assert len(document.layers[0].keyframes[0].outline.rings) == 3
+    for offset in ((0.0, 60.0), (160.0, 0.0), (900.0, 0.0)):
+        with pytest.raises(EditError):
+            cut_hole(with_hole(), 1, 0, Ring.polygon(triangle + offset))

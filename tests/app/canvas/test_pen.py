@@ -16,6 +16,7 @@ from tests.app.canvas.conftest import SQUARE, Hand, a_document
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 CORNERS = ((200.0, 120.0), (640.0, 100.0), (700.0, 420.0), (400.0, 300.0), (180.0, 440.0))
 Key = Qt.Key
+QT_CONTROL = Qt.KeyboardModifier.ControlModifier
 
 
 @pytest.fixture
@@ -209,3 +210,32 @@ def test_the_window_keeps_its_keys_while_nothing_is_drawn(empty: Hand):
     empty.canvas.keyPressEvent = lambda event: heard.append(event.key())
     QTest.keyClick(view, Key.Key_Return)
     assert heard == [Key.Key_Return]
+
+
+@pytest.mark.parametrize("key", [Qt.KeyboardModifier.AltModifier, QT_CONTROL])
+def test_with_alt_a_hole_is_cut_and_marks_stay(open_canvas, key: Qt.KeyboardModifier):
+    hand = open_canvas(a_document())
+    before = hand.document.layers[0].keyframes[0]
+    hand.canvas.set_tool("pen")
+    hand.click(SOURCE, (400, 200), key)
+    for corner in ((500, 200), (450, 300)):
+        hand.click(SOURCE, corner)
+    hand.key(SOURCE, Key.Key_Return)
+    after = hand.document.layers[0].keyframes[0]
+    assert [len(ring) for ring in after.outline.rings] == [4, 3]
+    assert after.outline.rings[0] is before.outline.rings[0]
+    assert after.marks == before.marks
+    assert hand.steps == ["Cut hole"]
+
+
+def test_a_hole_outside_the_shape_is_refused_with_advice(open_canvas):
+    hand = open_canvas(a_document())
+    errors = []
+    hand.workspace.session.failed.connect(errors.append)
+    hand.canvas.set_tool("pen")
+    hand.click(SOURCE, (200, 200), QT_CONTROL)
+    for corner in ((500, 200), (450, 300)):
+        hand.click(SOURCE, corner)
+    hand.key(SOURCE, Key.Key_Return)
+    assert hand.steps == []
+    assert "within the outline" in errors[0].hint
