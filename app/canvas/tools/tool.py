@@ -75,7 +75,7 @@ class Tool(QObject):
         """Return what a drag from here does; selecting what is pressed belongs here, too."""
 
     def click(self, pointer: Pointer) -> None:
-        """Do what a click does, at the release of a press that did not move."""
+        """Do what a click does, at the release of a press that no gesture followed."""
 
     def double_click(self, pointer: Pointer) -> None:
         """Do what the second press of a double click does."""
@@ -140,13 +140,14 @@ class Tool(QObject):
         """Take a release of the left button."""
         if self._pressed is None:
             return
-        gesture, self._gesture, self._pressed = self._gesture, None, None
-        if gesture is not None and self._moving:
+        pressed, gesture = self._pressed, self._gesture
+        self._pressed = self._gesture = None
+        if not self._moving:
+            self.click(pressed)
+        elif gesture is not None:
             gesture.end(pointer)
             if gesture.text:
                 self.session.commit()
-        else:
-            self.click(pointer)
         self.hover(pointer)
 
     def abandon(self) -> None:
@@ -170,12 +171,12 @@ class Tool(QObject):
         """Let the next key begin another undo step."""
         self.held = object()
 
+    # -- shared --------------------------------------------------------------------------------
+
     @property
     def layer(self) -> Layer | None:
         """The current layer, if it may be edited and no gesture is at it."""
         return None if self.fixed or self._gesture is not None else self.selection.layer
-
-    # -- shared --------------------------------------------------------------------------------
 
     def editable(self, pane: Pane) -> Layer | None:
         """Return the current layer, with the key of this pane selected, if it may be edited."""
