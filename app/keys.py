@@ -8,8 +8,10 @@ from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractItemView,
     QAbstractSlider,
+    QAbstractSpinBox,
     QApplication,
     QComboBox,
+    QLineEdit,
     QTabBar,
     QWidget,
 )
@@ -18,14 +20,17 @@ Key = Qt.Key
 ACROSS = {Key.Key_Left, Key.Key_Right}
 ALONG = {Key.Key_Up, Key.Key_Down, Key.Key_PageUp, Key.Key_PageDown}
 ENDS = {Key.Key_Home, Key.Key_End}
+CONFIRM = {Key.Key_Return, Key.Key_Enter}
 WANTED: tuple[tuple[type[QWidget], set[Qt.Key]], ...] = (
     (QAbstractButton, {Key.Key_Space}),
-    (QComboBox, {Key.Key_Space, *ALONG, *ENDS}),
+    (QComboBox, {Key.Key_Space, *ALONG, *ENDS, *CONFIRM}),
+    (QAbstractSpinBox, {*ALONG, *CONFIRM}),
+    (QLineEdit, CONFIRM),
     (QAbstractSlider, {*ACROSS, *ALONG, *ENDS}),
     (QAbstractItemView, {*ALONG, *ENDS}),
     (QTabBar, ACROSS),
 )
-"""The plain keys without which a control cannot be worked; text fields see to theirs themselves."""
+"""The plain keys without which a control cannot be worked; text fields see to most themselves."""
 
 
 class KeyManners(QObject):

@@ -169,9 +169,9 @@ class LayerList(QTreeView):
         self.header().setStretchLastSection(True)
 
     def event(self, event: QEvent) -> bool:
-        """Keep Delete from the window, where it means nodes and keys."""
+        """Keep Delete and F2 from the window, where they mean keyframes and a tool."""
         override = event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent)
-        if override and event.key() == Qt.Key.Key_Delete:
+        if override and event.key() in (Qt.Key.Key_Delete, Qt.Key.Key_F2):
             event.accept()
             return True
         return super().event(event)

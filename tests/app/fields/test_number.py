@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtGui import QAction, QKeySequence, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
@@ -112,3 +112,12 @@ def test_one_visit_is_one_gesture_and_return_or_leaving_begins_another(form: For
     form.other.setFocus()
     form.number.setFocus()
     assert form.number.gesture is not second
+
+
+def test_undo_in_the_field_is_that_of_the_document(form: Form, qtbot: QtBot) -> None:
+    action = QAction(form, shortcut=QKeySequence("Ctrl+Z"))
+    form.addAction(action)
+    form.number.setFocus()
+    QTest.keyClicks(form.number, "12")
+    with qtbot.waitSignal(action.triggered):
+        QTest.keyClick(form.number, Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
