@@ -163,7 +163,8 @@ def _icon(name: str, plain: str, chosen: str) -> QIcon:
 
 @lru_cache(maxsize=256)
 def _swatch(fill: str, rim: str) -> QIcon:
-    image = QPixmap(ICON, ICON)
+    image = QPixmap(2 * ICON, 2 * ICON)
+    image.setDevicePixelRatio(2)
     image.fill(Qt.GlobalColor.transparent)
     with QPainter(image) as painter:
         if fill:

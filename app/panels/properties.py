@@ -47,7 +47,8 @@ class PropertiesPanel(QScrollArea):
         self.setWidget(body)
         workspace.session.changed.connect(self._refresh)
         workspace.selection.changed.connect(self._refresh)
-        workspace.playhead.moved.connect(self._on_moved)
+        workspace.playhead.moved.connect(self.span.refresh)
+        workspace.playhead.moved.connect(self.result.follow)
         workspace.solver.updated.connect(self.result.refresh)
         self._refresh()
 
@@ -58,7 +59,3 @@ class PropertiesPanel(QScrollArea):
     def _refresh(self) -> None:
         for section in self._sections:
             section.refresh()
-
-    def _on_moved(self) -> None:
-        self.span.refresh()
-        self.result.refresh()

@@ -24,6 +24,7 @@ class ResultSection(Section):
         self.state.setAccessibleName(self.tr("State of the result"))
         self.add_wide(self.state)
         self._values: dict[str, QLabel] = {}
+        self._shown = 0
         for name, text, tip in (
             ("mesh", self.tr("Mesh"), self.tr("Vertices and triangles")),
             ("folds", self.tr("Folds"), self.tr("Inverted triangles at the source and the target")),
@@ -42,7 +43,14 @@ class ResultSection(Section):
         layer = self.workspace.selection.layer
         self.setVisible(layer is not None and layer.spans > 0)
         if layer is not None and layer.spans:
-            self._show(layer, layer.span_at(self.workspace.playhead.frame)[0])
+            self._shown = layer.span_at(self.workspace.playhead.frame)[0]
+            self._show(layer, self._shown)
+
+    def follow(self, frame: float) -> None:
+        """Show the result of another span, if the playhead is in one now."""
+        layer = self.workspace.selection.layer
+        if layer is not None and layer.span_at(frame)[0] != self._shown:
+            self.refresh()
 
     def text(self, name: str) -> str:
         """Return what is shown in a row."""

@@ -39,7 +39,9 @@ class LayerHeaders(QWidget):
             self._rows.insertWidget(len(self._headers), header)
             self._headers.append(header)
         while len(self._headers) > len(document.layers):
-            self._headers.pop().deleteLater()
+            header = self._headers.pop()
+            header.hide()
+            header.deleteLater()
         for header, layer in zip(self._headers, document.layers[::-1], strict=True):
             header.show_layer(layer)
 

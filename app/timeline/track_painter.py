@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import ceil, floor
 
-from PySide6.QtCore import QPointF, QRect, QRectF
+from PySide6.QtCore import QCoreApplication, QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from app.jobs.solver import SpanState
@@ -33,6 +33,10 @@ def paint_tracks(
         if exposed.top() <= top + ROW and top <= exposed.bottom():
             _paint_row(painter, workspace, rows, layer, top, exposed)
             _paint_keys(painter, workspace, rows, layer, top, hovered)
+    if not rows.document.layers:
+        painter.setPen(QColor(colours().muted))
+        text = QCoreApplication.translate("Timeline", "The keyframes of what you draw appear here.")
+        painter.drawText(painter.viewport(), Qt.AlignmentFlag.AlignCenter, text)
 
 
 def _paint_grid(painter: QPainter, rows: Rows, exposed: QRect, lowest: int) -> None:

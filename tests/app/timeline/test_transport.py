@@ -9,9 +9,12 @@ from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QComboBox, QToolBu
 from pytestqt.qtbot import QtBot
 
 from app.document.playhead import Loop
+from app.timeline.headers import LayerHeader
 from app.timeline.timeline import Timeline
 from app.workspace import Workspace
+from core.model import Document
 from core.model.edits import move_keyframe
+from tests.app.timeline.conftest import layer
 
 Key = Qt.Key
 LEFT = Qt.MouseButton.LeftButton
@@ -138,6 +141,16 @@ def test_the_eye_and_the_padlock_are_one_step_each_and_say_what_they_do(
 def test_a_click_on_a_name_chooses_the_layer(timeline: Timeline, workspace: Workspace) -> None:
     QTest.mouseClick(timeline.headers.childAt(120, 40), LEFT)
     assert workspace.selection.layer.id == 1
+
+
+def test_there_is_one_name_a_layer_whatever_is_opened(
+    timeline: Timeline, workspace: Workspace
+) -> None:
+    for count in (4, 0, 2):
+        layers = tuple(layer(i, 1, 9) for i in range(1, count + 1))
+        workspace.session.replace(Document(layers))
+        shown = [h.toolTip() for h in timeline.headers.findChildren(LayerHeader) if h.isVisible()]
+        assert sorted(shown) == [one.name for one in layers]
 
 
 def test_every_control_has_a_name_and_room_to_be_hit(timeline: Timeline, qtbot: QtBot) -> None:
