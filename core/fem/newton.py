@@ -7,6 +7,7 @@ eigenvectors in the space of F are two scaling modes, a flip and a twist (Smith,
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,41 +93,73 @@ def energy(elements: Elements, density: Density, x: Array) -> float:
     return float(elements.areas @ density.value(s1, s2))
 
 
-def newton_step(vertices: FreeVertices, density: Density, x: Array) -> Step:
-    """Return the projected Newton direction of Σ A ψ at positions x (n, 2)."""
-    elements = vertices.elements
+@dataclass(frozen=True, eq=False)
+class Terms:
+    """An energy at some positions, with its derivatives element by element."""
+
+    energy: float
+    gradient: Array
+    """(6, m) by the coordinates of the corners."""
+    hessian: Array
+    """(21, m) upper triangles, positive semidefinite."""
+
+
+def density_terms(elements: Elements, density: Density, x: Array) -> Terms:
+    """Return Σ A ψ at positions x (n, 2), its Hessian projected."""
     turn, mirror = turn_and_mirror(elements.deformation_gradients(x))
     s1, s2 = np.abs(turn) + np.abs(mirror), np.abs(turn) - np.abs(mirror)
     d = density.derivatives(s1, s2)
     modes = _modes(elements.hats, _unit(turn), _unit(mirror))
     stress = d.d1 * modes[0] + d.d2 * modes[1]
-    gradient = _scatter(elements, elements.areas * stress)[vertices.free].ravel()
     eigenmodes = _weighted_eigenmodes(d, s1, s2, modes) * np.sqrt(elements.areas)
     rows, columns = PAIRS
     blocks = np.einsum("kpm,kpm->pm", eigenmodes[:, rows], eigenmodes[:, columns])
-    solution = vertices.solve(blocks, -gradient)
-    direction = np.zeros_like(x)
-    direction[vertices.free] = solution.reshape(-1, 2)
     value = float(elements.areas @ density.value(s1, s2))
-    return Step(value, direction, float(gradient @ solution))
+    return Terms(value, elements.areas * stress, blocks)
+
+
+def newton_step(vertices: FreeVertices, density: Density, x: Array) -> Step:
+    """Return the projected Newton direction of Σ A ψ at positions x (n, 2)."""
+    return step_of(vertices, density_terms(vertices.elements, density, x))
+
+
+def step_of(vertices: FreeVertices, terms: Terms) -> Step:
+    """Return the direction that minimises an energy's quadratic model over the free vertices."""
+    gradient = _scatter(vertices.elements, terms.gradient)[vertices.free].ravel()
+    solution = vertices.solve(terms.hessian, -gradient)
+    direction = np.zeros((vertices.elements.vertices, 2))
+    direction[vertices.free] = solution.reshape(-1, 2)
+    return Step(terms.energy, direction, float(gradient @ solution))
 
 
 def line_search(elements: Elements, density: Density, x: Array, step: Step) -> tuple[Array, float]:
-    """Return (new positions, new energy) by halving until Armijo's condition holds.
+    """Return (new positions, new energy) of Σ A ψ further along a step.
 
-    Under a barrier the first try stops short of the first flat triangle. Where no length helps, x
-    itself and its energy are returned.
+    Under a barrier the first try stops short of the first flat triangle.
     """
-    length = 1.0
-    if density.barrier:
-        length = min(1.0, STEP_TO_FLAT * step_to_flat(elements, x, step.direction))
+    reach = safe_length(elements, x, step) if density.barrier else 1.0
+    return backtrack(lambda y: energy(elements, density, y), x, step, reach)
+
+
+def backtrack(
+    objective: Callable[[Array], float], x: Array, step: Step, length: float
+) -> tuple[Array, float]:
+    """Return (new positions, new energy) by halving a length until Armijo's condition holds.
+
+    Where no length helps, x itself and its energy are returned.
+    """
     for _ in range(HALVINGS):
         candidate = x + length * step.direction
-        value = energy(elements, density, candidate)
+        value = objective(candidate)
         if value <= step.energy + ARMIJO * length * step.slope:
             return candidate, value
         length /= 2
     return x, step.energy
+
+
+def safe_length(elements: Elements, x: Array, step: Step) -> float:
+    """Return the longest part of a step, at most all of it, that stops short of a flat triangle."""
+    return min(1.0, STEP_TO_FLAT * step_to_flat(elements, x, step.direction))
 
 
 def step_to_flat(elements: Elements, x: Array, direction: Array) -> float:

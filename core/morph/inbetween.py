@@ -11,11 +11,18 @@ from typing import Protocol
 import numpy as np
 
 from core.fem.elements import Elements
+from core.fem.energies.fold_barrier import REACH
 from core.geometry.rotation import polar, rotate, unwrap
 from core.geometry.triangulation import Indices, adjacent_triangles
 from core.model.outline import Array
 from core.model.recipe import Method
 from core.morph.fit import GradientFit
+from core.morph.guard import FoldGuard
+
+SURVEY = 16
+"""Moments at which a motion is searched for folds beforehand."""
+WATCHED = 0.6
+"""Between moments with a margin above this, frames are not checked."""
 
 
 class Interpolate(Protocol):
@@ -33,22 +40,27 @@ class PlainRigid:
     """The paper's form: S grows as (1 − t) I + t S, and source areas are the weights."""
 
     def __init__(self, rest: Array, target: Array, triangles: Indices) -> None:
-        elements = Elements.of(rest, triangles)
+        self._elements = elements = Elements.of(rest, triangles)
         F = elements.deformation_gradients(target)
         theta, self.stretch = polar(F)
         pairs = adjacent_triangles(triangles)
         self.theta = unwrap(theta, pairs, elements.areas) if len(pairs) else theta
         """(m,) rotation of each triangle, unwrapped across neighbours."""
         after = Elements.of(target, triangles)
-        self.fit = GradientFit(elements, self._weights(elements, after, F))
+        self.weights = self._weights(elements, after, F)
+        """(m, 2, 2) how much each triangle's deviation counts."""
+        self.fit = GradientFit(elements, self.weights)
         self._mass = (_mass(elements) + _mass(after)) / 2
         self._centres = self._mass @ rest, self._mass @ target
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t; their centre of mass runs straight from end to end."""
-        x = self.fit(self.ideal(t))
+        x = self._fitted(t)
         start, end = self._centres
         return x + ((1 - t) * start + t * end - self._mass @ x)
+
+    def _fitted(self, t: float) -> Array:
+        return self.fit(self.ideal(t))
 
     def ideal(self, t: float) -> Array:
         """Return B(t) (m, 2, 2) of every triangle."""
@@ -82,6 +94,31 @@ class Rigid(PlainRigid):
         self._axes = deviator / safe
         """(m, 2, 2) symmetric, with eigenvalues 1 and −1 along the axes of stretch."""
         self._logs = np.log(mean + half), np.log(mean - half)
+        after = Elements.of(target, triangles)
+        self._guard = FoldGuard(self._elements, after, self.weights)
+        self._margins, self._anchors = self._survey(rest)
+
+    def _fitted(self, t: float) -> Array:
+        x = super()._fitted(t)
+        k = round(np.clip(t, 0, 1) * SURVEY)
+        if self._margins[max(k - 1, 0) : k + 2].min() > WATCHED:
+            return x
+        ideal = self.ideal(t)
+        if self._guard.margin(x, ideal) >= REACH:
+            return x
+        return self._guard(ideal, self._anchors[k])
+
+    def _survey(self, rest: Array) -> tuple[Array, list[Array]]:
+        """Walk through the motion once: how close frames come to a fold, and a sound frame near
+        each moment for the guard to start from.
+        """
+        margins, anchors = np.ones(SURVEY + 1), [rest]
+        for k in range(1, SURVEY + 1):
+            ideal = self.ideal(k / SURVEY)
+            x = self.fit(ideal)
+            margins[k] = self._guard.margin(x, ideal)
+            anchors.append(x if margins[k] >= REACH else self._guard(ideal, anchors[-1]))
+        return margins, anchors
 
     def _stretched(self, t: float) -> Array:
         """Return Sᵗ, from its eigenvalues."""

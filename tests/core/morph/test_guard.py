@@ -1,0 +1,97 @@
+"""Frames that would fold, and the guard that keeps them from it."""
+
+import numpy as np
+import pytest
+
+import core
+from core.fem.elements import Elements, determinants
+from core.fem.energies.fold_barrier import REACH
+from core.geometry.rotation import rotate
+from core.morph.guard import FoldGuard
+from core.morph.quality import folds
+from tests.core.shapes import comb, limb
+
+TIMES = np.linspace(0, 1, 49)
+
+
+def ragged(seed: int) -> np.ndarray:
+    """Return a ragged star: random radii at random angles."""
+    rng = np.random.default_rng(seed)
+    angle = 2 * np.pi * np.cumsum(gap := rng.uniform(0.5, 1.5, 14)) / gap.sum()
+    return rng.uniform(0.35, 2, 14)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def solve(seed: int, method: str) -> core.Morph:
+    marks = [(i, (i + seed) % 14) for i in range(14)]
+    recipe = core.Recipe(method=method)
+    return core.solve(ragged(seed), ragged(seed + 1000), marks, recipe=recipe)
+
+
+def folded_frames(morph: core.Morph) -> int:
+    return sum(len(folds(morph.at(t), morph.triangles)) > 0 for t in TIMES)
+
+
+def test_ragged_shapes_fold_in_the_plain_form_and_never_by_default():
+    plain = [solve(seed, "plain arap") for seed in range(8)]
+    sound = [seed for seed, morph in enumerate(plain) if not morph.report.folds_target]
+    assert sum(folded_frames(plain[seed]) for seed in sound) > 20
+    assert sum(folded_frames(solve(seed, "arap")) for seed in sound) == 0
+
+
+@pytest.fixture
+def twisted():
+    """A bar, and ideal gradients that no fit follows without a fold."""
+    morph = core.solve(limb(0.0), limb(0.4), [(0, 0), (16, 16)])
+    rest = (morph.rest - morph.origin) / morph.unit
+    elements = Elements.of(rest, morph.triangles)
+    eye = np.broadcast_to(np.eye(2), (len(elements.areas), 2, 2))
+    guard = FoldGuard(elements, elements, elements.areas[:, None, None] * eye)
+    centre = rest[morph.triangles].mean(axis=1)
+    ideal = rotate(2.5 * np.sin(20 * centre[:, 0]), np.array(eye))
+    return guard, elements, rest, ideal, np.array(eye)
+
+
+def test_what_the_guard_returns_has_no_fold_even_where_the_ideal_twists(twisted):
+    guard, elements, rest, ideal, _ = twisted
+    x = guard(ideal, rest)
+    J = determinants(elements.deformation_gradients(x))
+    assert 0 < J.min() < REACH
+
+
+def test_where_nothing_nears_a_fold_the_guard_changes_nothing(twisted):
+    guard, _, rest, _, eye = twisted
+    turned = rotate(np.full(len(eye), 0.7), eye)
+    x = guard(turned, rest)
+    c, s = np.cos(0.7), np.sin(0.7)
+    expected = (rest - rest[0]) @ np.array([[c, -s], [s, c]]).T + x[0]
+    assert np.allclose(x, expected, atol=1e-9)
+
+
+def test_the_guarded_frame_does_not_depend_on_where_the_guard_starts(twisted):
+    guard, elements, rest, ideal, _ = twisted
+    rng = np.random.default_rng(1)
+    other = rest + 0.002 * rng.standard_normal(rest.shape)
+    other[0] = rest[0]
+    assert determinants(elements.deformation_gradients(other)).min() > 0
+    assert np.allclose(guard(ideal, rest), guard(ideal, other), atol=1e-4)
+
+
+def test_guarded_motion_is_smooth_and_exact_at_both_ends():
+    square = np.array([[0, 0], [6, 0], [6, 3], [0, 3]], dtype=float)
+    morph = core.solve(comb(3), square, [(0, 0), (1, 1)])
+    assert morph.inbetween._margins.min() < REACH  # so the guard is at work here
+    frames = np.array([morph.at(t) for t in np.linspace(0, 1, 201)])
+    assert folded_frames(morph) == 0
+    speed = np.abs(np.diff(frames, axis=0)).max(axis=(1, 2))
+    jolt = np.abs(np.diff(frames, n=2, axis=0)).max(axis=(1, 2))
+    assert jolt.max() < 0.25 * speed.max()
+    assert np.array_equal(frames[0], morph.rest)
+    assert np.array_equal(frames[-1], morph.target)
+
+
+def test_guarded_frames_do_not_depend_on_the_order_they_are_asked_in():
+    square = np.array([[0, 0], [6, 0], [6, 3], [0, 3]], dtype=float)
+    first, second = (core.solve(comb(3), square, [(0, 0), (1, 1)]) for _ in range(2))
+    forward = [first.at(t) for t in TIMES]
+    backward = [second.at(t) for t in TIMES[::-1]][::-1]
+    assert all(np.array_equal(a, b) for a, b in zip(forward, backward, strict=True))
