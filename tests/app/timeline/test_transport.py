@@ -144,13 +144,17 @@ def test_a_click_on_a_name_chooses_the_layer(timeline: Timeline, workspace: Work
 
 
 def test_there_is_one_name_a_layer_whatever_is_opened(
-    timeline: Timeline, workspace: Workspace
+    timeline: Timeline, workspace: Workspace, qtbot: QtBot
 ) -> None:
+    def shown() -> list[str]:
+        headers = timeline.headers.findChildren(LayerHeader)
+        return sorted(header.toolTip() for header in headers if header.isVisible())
+
     for count in (4, 0, 2):
         layers = tuple(layer(i, 1, 9) for i in range(1, count + 1))
         workspace.session.replace(Document(layers))
-        shown = [h.toolTip() for h in timeline.headers.findChildren(LayerHeader) if h.isVisible()]
-        assert sorted(shown) == [one.name for one in layers]
+        names = [one.name for one in layers]
+        qtbot.waitUntil(lambda names=names: shown() == names)
 
 
 def test_every_control_has_a_name_and_room_to_be_hit(timeline: Timeline, qtbot: QtBot) -> None:
