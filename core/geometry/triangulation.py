@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from core.errors import SolveError
 from core.model.outline import Array
 
 Indices = NDArray[np.int64]
+Points = TypeVar("Points", NDArray[np.float64], NDArray[np.complex128])
 
 MIN_ANGLE = 30
 """Degrees. The refinement is proved to end up to 20.7 and ends in practice to 33."""
@@ -91,8 +93,8 @@ def triangulate_polygon(points: Array, diagonals: Indices) -> Indices:
 def _corners_of_polygon(triangles: Indices, edges: Indices) -> Indices:
     """Return (m, 3) the index along a closed polyline of each triangle's corners; -1 outside.
 
-    ``edges`` (b, 2) are its directed edges, by the vertex numbers that ``triangles`` use. Corners at
-    a vertex are one corner of the polyline when they meet across edges that are not its own.
+    ``edges`` (b, 2) are its directed edges, by the vertex numbers that ``triangles`` use. Corners
+    at a vertex are one corner of the polyline when they meet across edges that are not its own.
     """
     n = int(triangles.max()) + 1
     tail = triangles.ravel()
@@ -118,15 +120,24 @@ def split_chords(mesh: Mesh) -> Mesh:
     A chord's image is fixed by the boundary alone and may leave the target; and a corner that
     becomes reflex needs two triangles. Split, both are free to move.
     """
-    edges, sides, count = unique_edges(mesh.triangles)
+    edges, _, count = unique_edges(mesh.triangles)
     chord = (count == 2) & (edges < mesh.boundary_size).all(axis=1)
-    if not chord.any():
-        return mesh
+    return Mesh(*split_edges(mesh.points, mesh.triangles, chord), mesh.rings)
+
+
+def split_edges(
+    points: Points, triangles: Indices, chosen: NDArray[np.bool_]
+) -> tuple[Points, Indices]:
+    """Split edges at their midpoints: new points and triangles.
+
+    ``chosen`` (e,) marks the edges as ``unique_edges`` numbers them. Points (n, d) may be of any
+    dimension, also complex.
+    """
+    edges, sides, _ = unique_edges(triangles)
     middle = np.full(len(edges), -1)
-    middle[chord] = len(mesh.points) + np.arange(chord.sum())
-    points = np.vstack([mesh.points, mesh.points[edges[chord]].mean(axis=1)])
-    triangles = _split(points, mesh.triangles, middle[sides])
-    return Mesh(points, triangles, mesh.rings)
+    middle[chosen] = len(points) + np.arange(np.count_nonzero(chosen))
+    points = np.concatenate([points, points[edges[chosen]].mean(axis=1)])
+    return points, _split(points, triangles, middle[sides])
 
 
 def _untriangulable() -> SolveError:
@@ -157,7 +168,7 @@ def adjacent_triangles(triangles: Indices) -> Indices:
     return (shared // 3).reshape(-1, 2)
 
 
-def _split(points: Array, triangles: Indices, middle: Indices) -> Indices:
+def _split(points: Points, triangles: Indices, middle: Indices) -> Indices:
     """Cut triangles at the midpoints of their edges; ``middle`` (m, 3) holds -1 for uncut ones."""
     cuts = (middle >= 0).sum(axis=1)
     parts = [triangles[cuts == 0]]
@@ -185,9 +196,9 @@ def _split(points: Array, triangles: Indices, middle: Indices) -> Indices:
     return np.concatenate(parts)
 
 
-def _distance(points: Array, i: Indices, j: Indices) -> Array:
+def _distance(points: Points, i: Indices, j: Indices) -> Array:
     away = points[i] - points[j]
-    return np.hypot(away[:, 0], away[:, 1])
+    return np.sqrt((away * away.conj()).real.sum(axis=1))
 
 
 def _oriented(points: Array, triangles: Indices) -> Indices:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from core.geometry.polyline import cross
@@ -17,6 +18,8 @@ from core.geometry.triangulation import Indices, triangulate_polygon, unique_edg
 from core.model.outline import Array
 
 TURNS = 6
+MOST_CORNERS = 120
+"""Ends of unshared diagonals among which more shared ones are looked for at a time."""
 CLEAR = 1e-6
 """A shared diagonal stays this far from all other vertices, at unit area."""
 
@@ -77,22 +80,23 @@ def _best_new(source: Array, target: Array, chords: ChordSets) -> Indices:
     Those that cross most others come first.
     """
     corners = np.unique(np.concatenate([chords.source, chords.target]))
+    corners = corners[:: 1 + len(corners) // MOST_CORNERS]
     i, j = np.triu_indices(len(corners), 1)
     pairs = np.column_stack([corners[i], corners[j]])
     gap = pairs[:, 1] - pairs[:, 0]
     pairs = pairs[(gap > 1) & (gap < len(source) - 1)]
-    pairs = pairs[~crossing(pairs, chords.shared).any(axis=1)]
     pairs = _without(pairs, np.concatenate([chords.shared, chords.source, chords.target]))
     for polygon in (source, target):
         pairs = pairs[sees(polygon, pairs)]
+    pairs = pairs[~crossing(pairs, chords.shared).any(axis=1)]
     saved = [crossing(pairs, only).sum(axis=1) for only in (chords.source, chords.target)]
     pairs = pairs[np.argsort(-saved[0] * saved[1], kind="stable")]
-    open_ = np.ones(len(pairs), bool)
     clash = crossing(pairs, pairs)
+    fits = np.ones(len(pairs), bool)
     for k in range(len(pairs)):
-        if open_[k]:
-            open_ &= ~clash[k]
-    return pairs[open_]
+        if fits[k]:
+            fits &= ~clash[k]
+    return pairs[fits]
 
 
 def sees(polygon: Array, pairs: Indices) -> NDArray[np.bool_]:
@@ -110,21 +114,20 @@ def sees(polygon: Array, pairs: Indices) -> NDArray[np.bool_]:
 
 
 def _clear(polygon: Array, pairs: Indices) -> NDArray[np.bool_]:
-    """Whether the segments between vertices touch no others and cross no edges."""
-    start, end = polygon[pairs.T]
-    line = end - start
-    length = np.hypot(line[:, 0], line[:, 1])[:, None]
-    from_start, from_end = polygon - start[:, None], polygon - end[:, None]
-    height = cross(line[:, None], from_start) / length
-    along = (line[:, None] * from_start).sum(axis=-1) / length
-    own = ~from_start.any(axis=-1) | ~from_end.any(axis=-1)
-    touched = (np.abs(height) < CLEAR) & (along > -CLEAR) & (along < length + CLEAR) & ~own
-    # two segments cross if each lies on both sides of the other; edge k runs from vertex k
-    edge = np.roll(polygon, -1, axis=0) - polygon
-    beside = height * np.roll(height, -1, axis=1) <= 0
-    crossed = beside & (cross(edge, from_start) * cross(edge, from_end) <= 0)
-    crossed &= ~(own | np.roll(own, -1, axis=1))
-    return ~(touched | crossed).any(axis=1)
+    """Whether the segments between vertices come near nothing but the edges at their ends."""
+    lines = shapely.linestrings(polygon[pairs])
+    corners = np.stack([polygon, np.roll(polygon, -1, axis=0)], axis=1)
+    tree = shapely.STRtree(shapely.linestrings(corners))
+    line, edge = tree.query(lines, predicate="dwithin", distance=CLEAR)
+    own = (corners[edge][:, :, None] == polygon[pairs[line]][:, None]).all(axis=-1).any(axis=-1)
+    blocked = ~own.any(axis=1)
+    # an edge at an end of the segment may still lie along it
+    mixed = np.flatnonzero(own[:, 0] != own[:, 1])
+    far = np.where(own[mixed, :1], corners[edge[mixed], 1], corners[edge[mixed], 0])
+    blocked[mixed] = shapely.dwithin(shapely.points(far), lines[line[mixed]], CLEAR)
+    clear = np.ones(len(pairs), bool)
+    clear[line[blocked]] = False
+    return clear
 
 
 def _inside(direction: Array, after: Array, before: Array) -> NDArray[np.bool_]:

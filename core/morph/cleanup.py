@@ -1,0 +1,152 @@
+"""Joint clean-up: from any mesh that fits source and target to one that fits them well.
+
+The mesh is coarsened as far as it goes, then brought to an even size in rounds: remove, split,
+flip, smooth and relax. Every step keeps all triangles positive at both ends, and the boundary.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from core.fem.elements import Elements
+from core.fem.energies import SymmetricDirichlet
+from core.fem.newton import FreeVertices, line_search, newton_step
+from core.geometry.triangulation import Indices, Mesh, split_edges, unique_edges
+from core.model.outline import Array
+from core.morph.flips import flip
+from core.morph.joint import JointMesh
+from core.morph.removal import remove
+from core.morph.smoothing import smooth
+
+COARSENINGS = 12
+ROUNDS = 5
+RELAX_STEPS = 2
+FITTINGS, FIT_STEPS = 2, 4
+POOR = 0.3
+"""Around triangles of less quality, any removal that does not harm is welcome."""
+POOREST = 0.2
+"""Quality that coarsening may leave behind."""
+SHORT, LONG = 0.6, 1.5
+"""Edges below and above these fractions of the wanted size are removed and split."""
+GROWTH = 0.7
+"""How much longer edges may be per distance from the boundary."""
+SMALLEST = 0.03
+"""Least wanted size, as a fraction of the largest."""
+FLAT = 1e-12
+"""Where a triangle's quality is less, Newton's method would drown in rounding errors."""
+
+
+def improve(
+    mesh: Mesh, target: Array, max_area: float, watch: Callable[[str], None] = lambda stage: None
+) -> tuple[Mesh, Array]:
+    """Return a better mesh of the same boundary, and target positions (n, 2) of its vertices.
+
+    Source and target have about unit area, and all triangles of ``mesh`` are positive in both.
+    Inside, triangles get about ``max_area``; near short boundary edges they are smaller.
+    ``watch(stage)`` is called before every round and may raise ``Cancelled``.
+    """
+    size = float(np.sqrt(max_area * 4 / np.sqrt(3)))
+    joint = _coarsened(flip(JointMesh.of(mesh, target), passes=20), watch)
+    for _ in range(ROUNDS):
+        watch("clean-up")
+        joint = smooth(_refined(_thinned(joint, size), size))
+        for _ in range(2):
+            joint = smooth(flip(joint, passes=3))
+        joint = flip(_relaxed(flip(joint, passes=2), size), passes=3)
+    for _ in range(FITTINGS):
+        watch("clean-up")
+        joint = flip(_fitted(joint), passes=3)
+    return Mesh(joint.end(0), joint.triangles, mesh.rings), joint.end(1)
+
+
+def _coarsened(mesh: JointMesh, watch: Callable[[str], None]) -> JointMesh:
+    """Take out inner vertices while many of them go."""
+    for _ in range(COARSENINGS):
+        watch("clean-up")
+        inner = len(mesh.points) - mesh.boundary_size
+        everywhere = np.ones(len(mesh.tail), bool)
+        mesh = flip(remove(mesh, everywhere, np.full(len(everywhere), POOREST)), passes=3)
+        mesh = flip(smooth(mesh), passes=3)
+        if len(mesh.points) - mesh.boundary_size > 0.98 * inner - 1:
+            break
+    return mesh
+
+
+def _thinned(mesh: JointMesh, size: float) -> JointMesh:
+    """Remove inner vertices at short edges and around poor triangles."""
+    for _ in range(3):
+        wanted = _wanted_sizes(mesh, size)
+        length = mesh.lengths(mesh.tail, mesh.head)
+        short = length < SHORT * (wanted[mesh.tail] + wanted[mesh.head]) / 2
+        poor = mesh.worst_around(mesh.quality.min(axis=1))[mesh.tail] < POOR
+        thinner = remove(mesh, short | poor, np.where(short, POOR, np.inf))
+        if len(thinner.points) == len(mesh.points):
+            break
+        mesh = thinner
+    return flip(mesh, passes=3)
+
+
+def _refined(mesh: JointMesh, size: float) -> JointMesh:
+    """Split the long inner edges."""
+    edges, _, count = unique_edges(mesh.triangles)
+    wanted = _wanted_sizes(mesh, size)[edges].mean(axis=1)
+    long = (count == 2) & (mesh.lengths(*edges.T) > LONG * wanted)
+    points, triangles = split_edges(mesh.points, mesh.triangles, long)
+    return JointMesh(points, triangles, mesh.boundary_size)
+
+
+def _wanted_sizes(mesh: JointMesh, size: float) -> Array:
+    """Return (n,) the edge length wanted at each vertex: that of the boundary, growing inwards."""
+    edges, _, count = unique_edges(mesh.triangles)
+    length = mesh.lengths(*edges.T)
+    border = count == 1
+    wanted = np.full(len(mesh.points), size)
+    for corner in edges[border].T:
+        np.minimum.at(wanted, corner, np.maximum(length[border], SMALLEST * size))
+    (i, j), grown = edges.T, GROWTH * length
+    for _ in range(8):
+        before = wanted.copy()
+        np.minimum.at(wanted, i, before[j] + grown)
+        np.minimum.at(wanted, j, before[i] + grown)
+        if (wanted == before).all():
+            break
+    return wanted
+
+
+def _relaxed(mesh: JointMesh, size: float) -> JointMesh:
+    """Bring the triangles of both ends closer to equilateral ones of the wanted size."""
+    ideal = _equilateral(mesh.triangles, _wanted_sizes(mesh, size))
+    return _newton(mesh, ideal, (0, 1), RELAX_STEPS)
+
+
+def _fitted(mesh: JointMesh) -> JointMesh:
+    """Bring the triangles of the target closer to those of the source."""
+    return _newton(mesh, Elements.of(mesh.end(0), mesh.triangles), (1,), FIT_STEPS)
+
+
+def _newton(mesh: JointMesh, rest: Elements, ends: tuple[int, ...], steps: int) -> JointMesh:
+    """Take Newton steps to less distortion between the rest shapes and the triangles at ends."""
+    if len(mesh.points) == mesh.boundary_size or mesh.quality.min() < FLAT:
+        return mesh
+    free = FreeVertices(rest, np.arange(mesh.boundary_size, len(mesh.points)))
+    density = SymmetricDirichlet()
+    points = mesh.points.copy()
+    for end in ends:
+        x = mesh.end(end)
+        for _ in range(steps):
+            x, _ = line_search(rest, density, x, newton_step(free, density, x))
+        points[:, end] = x[:, 0] + 1j * x[:, 1]
+    return mesh.moved(points)
+
+
+def _equilateral(triangles: Indices, sizes: Array) -> Elements:
+    """Return elements whose rest shapes are equilateral, sized by the vertices' (n,) wishes.
+
+    All have the same weight.
+    """
+    one = Elements.of(np.array([[0, 0], [1, 0], [0.5, np.sqrt(0.75)]]), np.array([[0, 1, 2]]))
+    side = sizes[triangles].mean(axis=1)
+    areas = np.full(len(triangles), one.areas[0])
+    return Elements(triangles, len(sizes), areas, one.gradients / side[:, None, None])

@@ -1,0 +1,111 @@
+"""A mesh drawn twice, in the source and in the target: what the joint clean-up works on.
+
+Points are complex numbers, one column an end, so that one line of arithmetic serves both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+
+from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices, Mesh
+from core.model.outline import Array
+
+TINY = 1e-300
+"""Keeps the quality of a triangle without any extent 0."""
+
+
+@dataclass(frozen=True, eq=False)
+class JointMesh:
+    """Triangles that are positive at both ends. Boundary vertices come first and never move."""
+
+    points: Complex
+    """(n, 2) each vertex in the source and in the target."""
+    triangles: Indices
+    """(m, 3)"""
+    boundary_size: int
+
+    @classmethod
+    def of(cls, mesh: Mesh, target: Array) -> Self:
+        """Join a mesh of the source and target positions (n, 2)."""
+        points = np.stack([_complex(mesh.points), _complex(target)], axis=1)
+        return cls(points, mesh.triangles, mesh.boundary_size)
+
+    def moved(self, points: Complex) -> JointMesh:
+        """Return it with other points."""
+        return JointMesh(points, self.triangles, self.boundary_size)
+
+    def rewired(self, triangles: Indices) -> JointMesh:
+        """Return it with other triangles."""
+        return JointMesh(self.points, triangles, self.boundary_size)
+
+    def end(self, which: int) -> Array:
+        """Return positions (n, 2) in the source (0) or the target (1)."""
+        z = self.points[:, which]
+        return np.column_stack([z.real, z.imag])
+
+    @cached_property
+    def quality(self) -> Array:
+        """(m, 2) of the triangles, see ``quality``."""
+        return quality(self.points, self.triangles)
+
+    @cached_property
+    def tail(self) -> Indices:
+        """(3m,) start of each half-edge; number 3t + k leads from corner k of t to the next."""
+        return self.triangles.ravel()
+
+    @cached_property
+    def head(self) -> Indices:
+        """(3m,) end of each half-edge."""
+        return self.triangles[:, [1, 2, 0]].ravel()
+
+    @cached_property
+    def apex(self) -> Indices:
+        """(3m,) the corner opposite each half-edge."""
+        return self.triangles[:, [2, 0, 1]].ravel()
+
+    @cached_property
+    def twins(self) -> Indices:
+        """(k, 2) pairs of half-edges that are one inner edge."""
+        low, high = np.minimum(self.tail, self.head), np.maximum(self.tail, self.head)
+        key = low * len(self.points) + high
+        order = np.argsort(key, kind="stable")
+        same = np.flatnonzero(key[order[1:]] == key[order[:-1]])
+        return np.column_stack([order[same], order[same + 1]])
+
+    @cached_property
+    def stars(self) -> tuple[Indices, Indices]:
+        """Half-edges (3m,) sorted by tail, and (n + 1,) where each vertex's begin."""
+        order = np.argsort(self.tail, kind="stable")
+        return order, np.searchsorted(self.tail[order], np.arange(len(self.points) + 1))
+
+    def worst_around(self, values: Array) -> Array:
+        """Return (n, ...) the smallest of triangle values (m, ...) around each vertex."""
+        order, start = self.stars
+        return np.minimum.reduceat(values[order // 3], start[:-1])
+
+    def lengths(self, i: Indices, j: Indices) -> Array:
+        """Return distances between vertices (k,) and (k,): the root mean square of both ends."""
+        away = self.points[i] - self.points[j]
+        return np.sqrt((away.real**2 + away.imag**2).mean(axis=1))
+
+
+def quality(points: Complex, triangles: Indices) -> Array:
+    """Return (..., 2) how equilateral triangles (..., 3) are at each end.
+
+    1 for an equilateral triangle, towards 0 for a flat one, negative for a folded one: the area
+    over the sum of the squared sides, scaled.
+    """
+    a, b, c = (np.take(points, triangles[..., k], axis=0) for k in range(3))
+    u, v = b - a, c - a
+    product = np.conj(u) * v
+    sides = u.real**2 + u.imag**2 + v.real**2 + v.imag**2 - product.real
+    return np.sqrt(3) * product.imag / np.maximum(sides, TINY)
+
+
+def _complex(points: Array) -> Complex:
+    return points[:, 0] + 1j * points[:, 1]

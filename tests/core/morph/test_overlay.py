@@ -1,0 +1,106 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import LineString, Polygon
+
+from core.geometry.polyline import signed_area
+from core.geometry.triangulation import Mesh, unique_edges
+from core.model.outline import Array
+from core.morph.chords import chord_sets, crossing
+from core.morph.overlay import compatible_mesh
+from core.morph.quality import doubled_areas
+from tests.core.morph.polygons import comb, disc, needle, spiral, square, star_shaped, untangled
+
+B = 30
+PAIRS = {
+    "spiral and disc": (spiral(2.5, 120), disc(120)),
+    "comb and square": (comb(5, 90), square(90)),
+    "spiral and comb": (spiral(1.5, 100), comb(4, 100)),
+    "two combs, shifted": (comb(4, 80), np.roll(comb(4, 80), 13, axis=0)),
+    "needle and disc": (needle(40, 1e-4), disc(40)),
+    "two needles, shifted": (needle(40, 1e-4), np.roll(needle(40, 1e-4), 5, axis=0)),
+    "two triangles": (disc(3), np.roll(disc(3), 1, axis=0)),
+    "two squares of 4, shifted": (square(4), np.roll(square(4), 1, axis=0)),
+    "a square's edges shifted by half": (square(32), np.roll(square(32), 4, axis=0)),
+}
+
+
+def check_fits(mesh: Mesh, image: Array, source: Array, target: Array) -> None:
+    """What every mesh that fits two polygons must be."""
+    b = len(source)
+    for points, polygon in ((mesh.points, source), (image, target)):
+        assert np.array_equal(points[:b], polygon)
+        doubled = doubled_areas(points, mesh.triangles)
+        assert doubled.min() > 0
+        assert doubled.sum() / 2 == pytest.approx(signed_area(polygon), rel=1e-9)
+    edges, _, count = unique_edges(mesh.triangles)
+    ring = np.arange(b)
+    border = np.sort(np.column_stack([ring, np.roll(ring, -1)]), axis=1)
+    assert set(count.tolist()) <= {1, 2}
+    assert sorted(edges[count == 1].tolist()) == sorted(border.tolist())
+    assert len(np.unique(mesh.triangles)) == len(mesh.points) == len(image)
+    assert len(mesh.points) - len(edges) + len(mesh.triangles) == 1
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_the_overlay_fits_both_polygons(name: str) -> None:
+    source, target = PAIRS[name]
+    check_fits(*compatible_mesh(source, target), source, target)
+
+
+@settings(max_examples=40, deadline=None)
+@given(star_shaped(B), star_shaped(B), st.integers(0, B - 1))
+def test_the_overlay_fits_star_shaped_polygons_at_any_shift(
+    source: Array, target: Array, shift: int
+) -> None:
+    target = np.roll(target, shift, axis=0)
+    check_fits(*compatible_mesh(source, target), source, target)
+
+
+@settings(max_examples=60, deadline=None)
+@given(untangled(B), untangled(B), st.integers(0, B - 1))
+def test_the_overlay_fits_wild_polygons_with_straight_runs_at_any_shift(
+    source: Array, target: Array, shift: int
+) -> None:
+    target = np.roll(target, shift, axis=0)
+    check_fits(*compatible_mesh(source, target), source, target)
+
+
+@settings(max_examples=20, deadline=None)
+@given(untangled(B), st.floats(0, 6))
+def test_a_turned_copy_needs_no_inner_vertex(source: Array, angle: float) -> None:
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    mesh, _ = compatible_mesh(source, source @ turn)
+    assert len(mesh.points) == len(source)
+
+
+@settings(max_examples=30, deadline=None)
+@given(untangled(B), untangled(B))
+def test_shared_diagonals_lie_inside_both_polygons(source: Array, target: Array) -> None:
+    chords = chord_sets(source, target)
+    assert len(chords.source) == len(chords.target) == B - 3 - len(chords.shared)
+    for polygon in (source, target):
+        inside = Polygon(polygon).buffer(1e-9)
+        assert all(inside.covers(LineString(polygon[pair])) for pair in chords.shared)
+
+
+@settings(max_examples=30, deadline=None)
+@given(untangled(B), untangled(B))
+def test_diagonals_of_one_polygon_never_cross_and_unshared_ones_cross_the_others(
+    source: Array, target: Array
+) -> None:
+    chords = chord_sets(source, target)
+    for own, others in ((chords.source, chords.target), (chords.target, chords.source)):
+        all_own = np.concatenate([chords.shared, own])
+        assert not crossing(all_own, all_own).any()
+        assert crossing(own, others).any(axis=1).all()
+
+
+def test_the_same_polygons_give_the_same_mesh() -> None:
+    source, target = PAIRS["spiral and comb"]
+    (first, image), (second, again) = (compatible_mesh(source, target) for _ in range(2))
+    assert np.array_equal(first.triangles, second.triangles)
+    assert np.array_equal(image, again)
