@@ -1,73 +1,102 @@
-"""Proposals for marks: where a ring starts when nobody said, and the mate of a clicked point."""
+"""Proposals for marks: all that two outlines need, or the mate of one clicked place."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from core.geometry.places import Track, tracks
-from core.geometry.polyline import arc_lengths, nearest_length, resample, turning_angles
 from core.model.outline import Array, Outline, RingPoint
+from core.morph.marks.chain import Pair
+from core.morph.marks.holes import RingPair, paired_holes
+from core.morph.marks.rings import RingMatch, match_rings
+from core.morph.shift import best_shift as best_shift
 
-SAMPLES = 256
-CORNER = np.radians(20)
-"""A vertex that turns by more than this is a corner."""
-REACH = 0.05
-"""How far a proposed mate may be drawn to a corner, as a fraction of the perimeter."""
+Marks = Sequence[tuple[RingPoint, RingPoint]]
+
+FAR_BETTER, BETTER = 0.7, 0.05
+"""A mirrored match is offered when it costs less than this part of the best other one, and is
+cheaper by that much."""
+NODE = 1e-9
+"""A place this near to a node is the node."""
 
 
-def best_shift(
-    source: Array, target: Array, rotation: complex | None = None
-) -> tuple[float, float, complex]:
-    """Find corresponding starts of two clean rings (n, 2) and (k, 2).
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """One way in which two rings may belong together, as the marks that it takes."""
 
-    Returns the arc length on the source, that on the target, and the rotation between them as a
-    unit complex number. Each cyclic shift is scored by how well the rings then fit under their best
-    similarity (Procrustes); between near equals the smaller rotation wins, or the one closest to
-    ``rotation`` if that is given.
+    source: Array
+    """(j,) increasing arc lengths on the source."""
+    target: Array
+    """(j,) where they belong on the target."""
+    confidence: Array
+    """(j,) in [0, 1]: high at corners that are alike, low along smooth arcs."""
+    cost: float
+    """How ill the rings match: 0 is perfect, 1 is poor."""
+    mirrored: bool
+    """Whether it takes the mirror image of the target: the marks run round it backwards."""
+
+
+def suggest_marks(
+    source: Array, target: Array, fixed: Sequence[Pair] = (), rotation: complex | None = None
+) -> list[Candidate]:
+    """Propose marks for two rings (n, 2) and (k, 2), in ways that differ as wholes, the best first.
+
+    ``fixed`` are pairs of arc lengths that the artist has set: proposals only fill the gaps between
+    them. Where they contradict each other's order, the earlier ones count. ``rotation`` (of length
+    one) is that of the source, if it is known. A mirrored candidate is among them only if it
+    matches far better. Rings that enclose nothing have no candidates. Start vertex, direction,
+    place, size and density of vertices do not matter.
     """
-    start = _prominent_vertex(source)
-    a, b = (_samples(p, s) for p, s in ((source, arc_lengths(source)[start]), (target, 0.0)))
-    fit = np.fft.ifft(np.conj(np.fft.fft(a)) * np.fft.fft(b))  # Σ conj(a_i) b_{i+k}
-    turn = fit / np.maximum(np.abs(fit), 1e-300)
-    wish = turn.real if rotation is None else (turn * np.conj(rotation)).real
-    weight = 0.02 if rotation is None else 0.5
-    shift = int(np.argmax(np.abs(fit) * (1 + weight * wish)))
-    lengths = arc_lengths(target)
-    at = shift * lengths[-1] / SAMPLES
-    return (
-        float(arc_lengths(source)[start]),
-        _to_vertex(target, lengths, at, 1.5 * lengths[-1] / SAMPLES),
-        complex(turn[shift]),
-    )
-
-
-def mate(
-    source: Outline,
-    target: Outline,
-    place: RingPoint,
-    marks: Sequence[tuple[RingPoint, RingPoint]] = (),
-) -> RingPoint:
-    """Propose the place on the target that corresponds to ``place`` on the source.
-
-    Between the marks already set on that ring it keeps its fraction of the arc's length; with none
-    it follows the best cyclic shift. From there it is drawn to the nearest similar corner.
-    """
-    ring = min(place.ring, len(target.rings) - 1)
-    here, there = tracks(source)[place.ring], tracks(target)[ring]
-    length = here.length_of(place.at)
-    arcs = [
-        (here.length_of(a.at), there.length_of(b.at))
-        for a, b in marks
-        if a.ring == place.ring and b.ring == ring
+    matches = match_rings(source, target, fixed, rotation)
+    plain = min((match.cost for match in matches if not match.mirrored), default=0.0)
+    return [
+        Candidate(*match.marks(), match.cost, match.mirrored)
+        for match in matches
+        if not match.mirrored or match.cost < min(FAR_BETTER * plain, plain - BETTER)
     ]
-    if not arcs:
-        arcs = [_start_pair(here, there)]
-    guess, room = _proportional(
-        length, arcs, here.perimeter, there.perimeter, _same_turn(here, there)
-    )
-    return RingPoint(ring, there.place_of(_to_similar_corner(here, length, there, guess, room)))
+
+
+def suggest_for(
+    source: Outline, target: Outline, marks: Marks = ()
+) -> list[tuple[RingPoint, RingPoint, float]]:
+    """Propose the marks that two outlines need besides those they have, with their confidence.
+
+    The exteriors are matched, then each hole with the one that lies where the exterior's match
+    carries it.
+    """
+    found = []
+    for pair in _ring_pairs(source, target, marks):
+        match = _match(source, target, pair, _fixed(source, target, pair, marks))
+        if match is None:
+            continue
+        here, there = tracks(source)[pair.source], tracks(target)[pair.target]
+        found += [
+            (_place(here, pair.source, s), _place(there, pair.target, t), float(confidence))
+            for s, t, confidence in zip(*match.marks(), strict=True)
+        ]
+    return found
+
+
+def mate(source: Outline, target: Outline, place: RingPoint, marks: Marks = ()) -> RingPoint:
+    """Propose the place on the target that belongs to ``place`` on the source.
+
+    It follows the match of both rings through the marks already set; the mate of a corner is a
+    corner wherever there is one like it.
+    """
+    pairs = {pair.source: pair for pair in _ring_pairs(source, target, marks, place.ring)}
+    pair = pairs.get(place.ring) or RingPair(place.ring, min(place.ring, len(target.rings) - 1))
+    here, there = tracks(source)[pair.source], tracks(target)[pair.target]
+    match = _match(source, target, pair, _fixed(source, target, pair, marks))
+    if match is not None:
+        return _place(there, pair.target, match.mate(here.length_of(place.at)))
+    if not here.perimeter > 0 or not there.perimeter > 0:
+        return RingPoint(pair.target, 0.0)
+    share = here.length_of(place.at) / here.perimeter
+    return _place(there, pair.target, share * there.perimeter)
 
 
 def snap(outline: Outline, place: RingPoint, radius: float) -> RingPoint:
@@ -79,92 +108,54 @@ def snap(outline: Outline, place: RingPoint, radius: float) -> RingPoint:
     return RingPoint(place.ring, float(nearest)) if distance[nearest] <= radius else place
 
 
-def _samples(points: Array, start: float) -> Array:
-    """Return (SAMPLES,) centred points as complex numbers."""
-    even = resample(points, SAMPLES, start)
-    z = even[:, 0] + 1j * even[:, 1]
-    return z - z.mean()
+def _ring_pairs(
+    source: Outline, target: Outline, marks: Marks, ring: int | None = None
+) -> list[RingPair]:
+    """Return the rings that belong together, exteriors first; marks decide where there are any.
 
-
-def _prominent_vertex(points: Array) -> int:
-    """The vertex farthest from the centre: the same wherever the list of points starts."""
-    away = points - resample(points, SAMPLES).mean(axis=0)
-    return int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(points), 9)))
-
-
-def _to_vertex(points: Array, lengths: Array, at: float, reach: float) -> float:
-    """Move an arc length to the nearest vertex within reach."""
-    perimeter = lengths[-1]
-    gap = np.abs(np.mod(lengths[:-1] - at + perimeter / 2, perimeter) - perimeter / 2)
-    nearest = int(np.argmin(gap))
-    return float(lengths[nearest]) if gap[nearest] <= reach else float(at)
-
-
-def _same_turn(here: Track, there: Track) -> bool:
-    """Whether both polylines run the same way round."""
-    return _turn(here) == _turn(there)
-
-
-def _turn(track: Track) -> bool:
-    return bool(np.sum(turning_angles(track.polyline.points)) > 0)
-
-
-def _start_pair(here: Track, there: Track) -> tuple[float, float]:
-    """Best cyclic shift of two tracks, in the arc lengths of their own directions."""
-    a, b = here.polyline.points, there.polyline.points
-    mirrored = b if _same_turn(here, there) else b[::-1]
-    s, t, _ = best_shift(a, mirrored)
-    point = resample(mirrored, 1, t)[0]
-    return s, nearest_length(b, there.lengths, point)[0]
-
-
-def _proportional(
-    length: float,
-    arcs: Sequence[tuple[float, float]],
-    here: float,
-    there: float,
-    same_turn: bool,
-) -> tuple[float, tuple[float, float]]:
-    """Carry an arc length over by its fraction of the arc it lies in.
-
-    Returns it on the target, and how much room there is before and after it to the next marks.
+    Only the exteriors when just ``ring`` 0 is asked for: finding the holes takes time.
     """
-    ordered = sorted(arcs)
-    starts = np.array([s for s, _ in ordered])
-    i = int(np.searchsorted(starts, length, side="right")) - 1  # -1 is the arc across the seam
-    (s0, t0), (s1, t1) = ordered[i], ordered[(i + 1) % len(ordered)]
-    alone = len(ordered) == 1
-    arc = here if alone else (s1 - s0) % here
-    fraction = ((length - s0) % here) / arc if arc else 0.0
-    sign = 1 if same_turn else -1
-    image = there if alone else (sign * (t1 - t0)) % there
-    room = (fraction * image, (1 - fraction) * image)
-    return (t0 + sign * fraction * image) % there, room if same_turn else room[::-1]
+    exteriors = RingPair(0, 0)
+    exterior = _match(source, target, exteriors, _fixed(source, target, exteriors, marks))
+    if ring == 0 or exterior is None:
+        return [exteriors]
+    known = {a.ring: b.ring for a, b in marks if a.ring > 0 and b.ring > 0}
+    return [exteriors, *paired_holes(_rings(source), _rings(target), exterior, known)]
 
 
-def _to_similar_corner(
-    here: Track, length: float, there: Track, guess: float, room: tuple[float, float]
-) -> float:
-    """Draw a guess to the corner within reach that turns most like the source does."""
-    turn = _turn_at(here, length)
-    if abs(turn) < CORNER:
-        return guess
-    sign = 1 if _same_turn(here, there) else -1
-    perimeter = there.perimeter
-    reach = REACH * perimeter
-    gap = np.mod(there.lengths[:-1] - guess + perimeter / 2, perimeter) - perimeter / 2
-    turns = sign * turning_angles(there.polyline.points)
-    near = (gap > -min(reach, 0.9 * room[0])) & (gap < min(reach, 0.9 * room[1]))
-    near &= turns * np.sign(turn) > CORNER
-    if not near.any():
-        return guess
-    cost = np.abs(gap) / reach + np.abs(turns - turn) / np.pi
-    return float(there.lengths[np.argmin(np.where(near, cost, np.inf))])
+def _place(track: Track, ring: int, length: float) -> RingPoint:
+    """Return the place at an arc length; that of a node exactly."""
+    at = track.place_of(length)
+    node = round(at)
+    return RingPoint(ring, float(node % track.nodes) if abs(at - node) < NODE else at)
 
 
-def _turn_at(track: Track, length: float) -> float:
-    """Turning angle of the vertex at an arc length; 0 on an edge."""
-    gap = np.abs(track.lengths[:-1] - length)
-    nearest = int(np.argmin(np.minimum(gap, track.perimeter - gap)))
-    near = min(gap[nearest], track.perimeter - gap[nearest]) < 1e-6 * track.perimeter
-    return float(turning_angles(track.polyline.points)[nearest]) if near else 0.0
+def _rings(outline: Outline) -> list[Array]:
+    return [track.polyline.points for track in tracks(outline)]
+
+
+def _fixed(source: Outline, target: Outline, pair: RingPair, marks: Marks) -> tuple[Pair, ...]:
+    """Return the marks on two rings as arc lengths."""
+    here, there = tracks(source)[pair.source], tracks(target)[pair.target]
+    return tuple(
+        (here.length_of(a.at), there.length_of(b.at))
+        for a, b in marks
+        if (a.ring, b.ring) == (pair.source, pair.target)
+    )
+
+
+@lru_cache(maxsize=128)
+def _match(
+    source: Outline, target: Outline, pair: RingPair, fixed: tuple[Pair, ...]
+) -> RingMatch | None:
+    """Return the best match of two rings, not mirrored; none if one of them encloses nothing.
+
+    Marks that lie on the match without them confirm it and spare another search: those that were
+    proposed and accepted do.
+    """
+    free = _match(source, target, pair, ()) if fixed else None
+    if free is not None and free.confirmed_by(fixed):
+        return free.through(fixed)
+    here, there = _rings(source)[pair.source], _rings(target)[pair.target]
+    matches = match_rings(here, there, fixed, pair.rotation)
+    return next((match for match in matches if not match.mirrored), None)

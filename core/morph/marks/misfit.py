@@ -1,0 +1,64 @@
+"""How badly two places on two contours match, and how sure a match is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.model.outline import Array
+from core.morph.marks.contour import Complex, Samples
+
+POSITION, FAR = 3.6, 1.0
+"""Weight of a squared distance in radii, and the squared distance at which half is forgiven."""
+DIRECTION = 0.5
+"""Weight of 1 − cos of the angle between directions."""
+TURN, SHARP = 0.3, 2.0
+"""Weight of a squared difference of turns, and the square at which half is forgiven."""
+
+POOR = 0.5
+"""Misfit at which a match is doubtful."""
+CLEAR = 0.2
+"""By how much the shape must fit worse beside a match for it to be clear."""
+BESIDE, REACH = 3, 10
+"""Where beside: from so many samples to so many."""
+
+
+def position_misfits(expected: Complex, there: Complex) -> Array:
+    """Return (..., n, m) misfits of expected points (..., n) with those of a target (m,)."""
+    return POSITION * _levelled(np.abs(expected[..., None] - there) ** 2, FAR)
+
+
+def shape_misfits(here: Samples, rotation: Complex, there: Samples) -> Array:
+    """Return (..., n, m) misfits of turns, and of directions turned by ``rotation`` (..., n).
+
+    Great differences are levelled off: a slit that only one shape has must not outweigh the rest.
+    """
+    turned = (here.directions * rotation)[..., None]
+    misfits = DIRECTION * (1 - (turned * np.conj(there.directions)).real)
+    for a, b in zip(here.turns, there.turns, strict=True):
+        misfits += TURN * _levelled((a[:, None] - b) ** 2, SHARP)
+    return misfits
+
+
+def confidence(misfits: Array, shape: Array, columns: Array) -> Array:
+    """Return (n,) in [0, 1] how sure it is that sample i belongs to sample ``columns[i]``.
+
+    ``misfits`` (n, m) of everything and ``shape`` (n, m) of the shape alone. A match is sure where
+    little is amiss with it and where the shape fits worse to either side: at a corner, not along a
+    smooth arc.
+    """
+    n, m = misfits.shape
+    offsets = np.arange(-REACH, REACH + 1)
+    cells = np.arange(n)[:, None], (np.rint(columns).astype(int)[:, None] + offsets) % m
+    here = _smoothed(misfits[cells])[:, REACH]
+    along = _smoothed(shape[cells])
+    beside = along[:, np.abs(offsets) >= BESIDE].min(axis=1) - along[:, REACH]
+    return np.exp(-((here / POOR) ** 2)) * (1 - np.exp(-np.maximum(beside, 0) / CLEAR))
+
+
+def _levelled(values: Array, half: float) -> Array:
+    return values / (1 + values / half)
+
+
+def _smoothed(values: Array) -> Array:
+    """Average every row with its neighbours around the ring."""
+    return np.mean([np.roll(values, k, axis=0) for k in range(1 - BESIDE, BESIDE)], axis=0)

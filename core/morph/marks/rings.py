@@ -1,0 +1,140 @@
+"""Match two rings as they were drawn: in arc lengths, whatever their direction, place and size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.geometry.polyline import arc_lengths, signed_area
+from core.model.outline import Array
+from core.morph.marks.chain import Pair, in_order
+from core.morph.marks.contour import Contour, gap
+from core.morph.marks.keymarks import Route
+from core.morph.marks.matching import match_contours
+
+EMPTY = 1e-6
+"""Rings that enclose less than this part of their perimeter squared match nothing."""
+AT = 1e-6
+"""A place this near to a corner, as a fraction of the perimeter, is the corner."""
+CONFIRMED = 1e-3
+"""Pairs this near to a match, as a fraction of the perimeter, lie on it."""
+DRAWN = 0.03
+"""How far the mate of a corner without partner may be drawn to a corner like it."""
+
+
+@dataclass(frozen=True, eq=False)
+class RingMatch:
+    """A correspondence of two rings."""
+
+    source: Contour
+    target: Contour
+    """The mirror image if the match is mirrored."""
+    perimeters: Array
+    """(2,) of the rings as drawn."""
+    route: Route
+
+    @property
+    def cost(self) -> float:
+        """How ill the rings match: 0 is perfect, 1 is poor."""
+        return self.route.match.cost
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether it takes the mirror image of the target."""
+        return self.route.match.mirrored
+
+    def marks(self) -> tuple[Array, Array, Array]:
+        """Return the marks that it takes besides the fixed ones, in order along the source.
+
+        They are arc lengths (j,) on the source and on the target, and the confidence of each pair.
+        """
+        match, knots = self.route.match, self.route.key_knots()
+        here = self.source.translated(match.source[knots]) * self.perimeters[0]
+        there = self.target.translated(match.target[knots]) * self.perimeters[1]
+        order = np.argsort(here)
+        return here[order], there[order], match.sureness(match.source[knots])[order]
+
+    def images(self, lengths: Array) -> Array:
+        """Return where arc lengths (j,) on the source belong on the target."""
+        at = self.source.translated(lengths / self.perimeters[0])
+        return self.target.translated(self.route.match.image(at)) * self.perimeters[1]
+
+    def confirmed_by(self, fixed: Sequence[Pair]) -> bool:
+        """Whether pairs of arc lengths lie on the match."""
+        here, there = (np.array(fixed) / self.perimeters).T
+        at, image = self.source.translated(here), self.target.translated(there)
+        match = self.route.match
+        off = gap(match.image(at), image) * gap(match.origin(image), at)
+        return bool((np.abs(off) <= CONFIRMED**2).all())
+
+    def through(self, fixed: Sequence[Pair]) -> RingMatch:
+        """Return the match led through pairs of arc lengths that lie on it, or nearly so."""
+        pairs = _pairs(self.source, self.target, self.perimeters, fixed)
+        route = Route.of(self.source, self.target, self.route.match, pairs)
+        return replace(self, route=route)
+
+    def mate(self, length: float) -> float:
+        """Return where an arc length belongs; that of a corner is drawn to a corner like it."""
+        at = self.source.translated(np.array([length / self.perimeters[0]]))
+        image = self._drawn(float(at[0]), float(self.route.match.image(at)[0]))
+        return float(self.target.translated(np.array(image)) * self.perimeters[1])
+
+    def _drawn(self, at: float, image: float) -> float:
+        """Draw the image of a corner to the nearest one that turns alike, if its partner is not
+        known and the order around the rings allows it.
+        """
+        match, anchors = self.route.match, np.flatnonzero(self.route.fixed | self.route.corner)
+        corners, turns = self.source.corners
+        here = np.flatnonzero(np.abs(gap(corners, at)) < AT)
+        if not len(here) or (np.abs(gap(match.source[anchors], at)) < AT).any():
+            return image
+        known = [(match.source[i] % 1.0, match.target[i] % 1.0) for i in anchors]
+        others, other_turns = self.target.corners
+        away = np.abs(gap(others, image))
+        away[other_turns * turns[here[0]] <= 0] = np.inf
+        for k in np.argsort(away)[: np.count_nonzero(away < DRAWN)]:
+            pair = at, float(others[k])
+            if pair in in_order([*known, pair]):
+                return pair[1]
+        return image
+
+
+def match_rings(
+    source: Array, target: Array, fixed: Sequence[Pair] = (), rotation: complex | None = None
+) -> list[RingMatch]:
+    """Match two rings (n, 2) and (k, 2) in ways that differ as wholes, the best first.
+
+    ``fixed`` pairs of arc lengths stay together; where they contradict each other's order around
+    the rings, the earlier ones count. ``rotation`` (of length one) is that of the source, if it is
+    known. A mirrored match is among them when it is better than the others. Rings that enclose
+    nothing have no match.
+    """
+    if not (_encloses(source) and _encloses(target)):
+        return []
+    a, b = Contour.of(source), Contour.of(target)
+    perimeters = np.array([arc_lengths(ring)[-1] for ring in (source, target)])
+    pairs = _pairs(a, b, perimeters, fixed)
+    found = []
+    for match in match_contours(a, b, pairs, rotation):
+        there = b.mirrored() if match.mirrored else b
+        found.append(RingMatch(a, there, perimeters, Route.of(a, there, match, pairs)))
+    return found
+
+
+def _pairs(
+    source: Contour, target: Contour, perimeters: Array, lengths: Sequence[Pair]
+) -> list[Pair]:
+    """Return pairs of arc lengths as places on the contours, in order around them."""
+    if not lengths:
+        return []
+    here, there = (np.array(lengths) / perimeters).T
+    at, image = source.translated(here), target.translated(there)
+    return in_order(zip(at.tolist(), image.tolist(), strict=True))
+
+
+def _encloses(ring: Array) -> bool:
+    if len(ring) < 3 or not np.isfinite(ring).all():
+        return False
+    return abs(signed_area(ring)) > EMPTY * arc_lengths(ring)[-1] ** 2

@@ -1,0 +1,57 @@
+"""Where a ring starts when nobody said: the best cyclic shift."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.geometry.polyline import arc_lengths, resample
+from core.model.outline import Array
+
+SAMPLES = 256
+
+
+def best_shift(
+    source: Array, target: Array, rotation: complex | None = None
+) -> tuple[float, float, complex]:
+    """Find corresponding starts of two clean rings (n, 2) and (k, 2).
+
+    Returns the arc length on the source, that on the target, and the rotation between them as a
+    unit complex number. Each cyclic shift is scored by how well the rings then fit under their best
+    similarity (Procrustes); between near equals the smaller rotation wins, or the one closest to
+    ``rotation`` if that is given.
+    """
+    start = _prominent_vertex(source)
+    a, b = (_samples(p, s) for p, s in ((source, arc_lengths(source)[start]), (target, 0.0)))
+    fit = np.fft.ifft(np.conj(np.fft.fft(a)) * np.fft.fft(b))  # Σ conj(a_i) b_{i+k}
+    turn = fit / np.maximum(np.abs(fit), 1e-300)
+    wish = turn.real if rotation is None else (turn * np.conj(rotation)).real
+    weight = 0.02 if rotation is None else 0.5
+    shift = int(np.argmax(np.abs(fit) * (1 + weight * wish)))
+    lengths = arc_lengths(target)
+    at = shift * lengths[-1] / SAMPLES
+    return (
+        float(arc_lengths(source)[start]),
+        _to_vertex(target, lengths, at, 1.5 * lengths[-1] / SAMPLES),
+        complex(turn[shift]),
+    )
+
+
+def _samples(points: Array, start: float) -> Array:
+    """Return (SAMPLES,) centred points as complex numbers."""
+    even = resample(points, SAMPLES, start)
+    z = even[:, 0] + 1j * even[:, 1]
+    return z - z.mean()
+
+
+def _prominent_vertex(points: Array) -> int:
+    """The vertex farthest from the centre: the same wherever the list of points starts."""
+    away = points - resample(points, SAMPLES).mean(axis=0)
+    return int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(points), 9)))
+
+
+def _to_vertex(points: Array, lengths: Array, at: float, reach: float) -> float:
+    """Move an arc length to the nearest vertex within reach."""
+    perimeter = lengths[-1]
+    gap = np.abs(np.mod(lengths[:-1] - at + perimeter / 2, perimeter) - perimeter / 2)
+    nearest = int(np.argmin(gap))
+    return float(lengths[nearest]) if gap[nearest] <= reach else float(at)
