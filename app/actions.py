@@ -233,7 +233,7 @@ ENTRIES: tuple[Entry, ...] = (
     _layout("overlay", "O&verlay", "Ctrl+3", "overlay"),
     _option("onion", "Show &onion skin", "O", "onion"),
     _option("mesh", "Show mes&h", "Shift+M", "mesh"),
-    _option("marks", "Show &marks", "Ctrl+M"),
+    _option("marks", "Show mar&ks", "Ctrl+M"),
     _theme("dark", "&Dark"),
     _theme("light", "&Light"),
     _theme("system", "&System"),
@@ -284,7 +284,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("first", "&First frame", lambda d: d.playhead.to_start(), ("Home",), "first"),
     Entry("last", "L&ast frame", lambda d: d.playhead.to_end(), ("End",), "last"),
     Entry("cancel", "&Cancel solving", lambda d: d.solver.cancel(), when=lambda d: d.solver.busy),
-    Entry("solve", "Sol&ve again", lambda d: d.solver.resume(), ("F9",), when=_span),
+    Entry("solve", "Solve a&gain", lambda d: d.solver.resume(), ("F9",), when=_span),
 
     Entry("welcome", "&Welcome", lambda d: d.window.toggle_welcome(),
           on=lambda d: d.window.welcoming),

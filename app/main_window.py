@@ -159,6 +159,7 @@ class MainWindow(QMainWindow):
             signal.connect(self.actions_.refresh)
         w.session.file_changed.connect(self._show_title)
         self.canvas.hint_changed.connect(self.status.set_hint)
+        self.status.set_hint(self.canvas.hint)
         self.status.cancel_asked.connect(self._cancel_solving)
         self._autosave.failed.connect(self.reporter.show_refusal)
         self.welcome.new_asked.connect(self._begin_new)

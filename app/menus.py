@@ -19,7 +19,7 @@ Menu = tuple[str, Items]
 """The title of a menu and what is in it; one without items is filled by its owner."""
 
 RECENT = "Open &recent"
-PANELS = "&Panels"
+PANELS = "Pane&ls"
 TOOLS = ("tool-select", "tool-nodes", "tool-pen", "tool-freehand", "tool-marks")
 # fmt: off
 MENUS: tuple[Menu, ...] = (

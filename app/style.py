@@ -216,6 +216,13 @@ def _sheet(c: Colours) -> str:
     QMenu::separator {{ height: 1px; background: {c.hover}; margin: 4px 8px; }}
     QStatusBar {{ background: {c.window}; border-top: 1px solid {c.line}; }}
     QStatusBar::item {{ border: 0; }}
+    MessageBar[tone="error"] {{ background: {c.error_ground}; border-color: {c.error}; }}
+    MessageBar[tone="note"] {{ background: {c.note_ground}; border-color: {c.accent}; }}
+    MessageBar {{ border: 1px solid {c.line}; border-radius: {RADIUS}px; }}
+    WelcomePanel {{ border: 0; border-left: 1px solid {c.line}; }}
+    WelcomePanel QPushButton {{ padding: 4px 6px; }}
+    QLabel#title {{ font-size: 14pt; font-weight: 600; }}
+    QLabel#heading {{ color: {c.muted}; font-weight: 600; padding-top: 6px; }}
     QToolTip {{
         background: {c.raised}; color: {c.text}; border: 1px solid {c.line}; padding: 4px;
     }}

@@ -19,7 +19,7 @@ from app.canvas.tools.marks import MarksTool
 from app.canvas.tools.nodes import NodesTool
 from app.canvas.tools.pen import PenTool
 from app.canvas.tools.select import SelectTool
-from app.canvas.tools.tool import Command, Tool
+from app.canvas.tools.tool import ARROWS, Command, Tool
 from app.canvas.tools.transform_box import TransformBox
 from app.workspace import Workspace
 from core.errors import MorphError
@@ -82,6 +82,11 @@ class Canvas(QWidget):
     def tool(self) -> str:
         """The name of the tool in hand."""
         return self._tool.name
+
+    @property
+    def hint(self) -> str:
+        """What the next click does."""
+        return self._hint
 
     def set_tool(self, name: str) -> None:
         """Take a tool: "select", "nodes", "pen", "freehand" or "marks"."""
@@ -256,7 +261,12 @@ class Canvas(QWidget):
             if self.tool != SelectTool.name and not self._workspace.playhead.playing:
                 return self._put_tool_away
             return None
+        if key in ARROWS and not any(pane.key is not None for pane in self._focused_panes()):
+            return None  # in the in-between there is nothing to nudge, and time to step through
         return self._tool.key(key, modifiers)
+
+    def _focused_panes(self) -> list[Pane]:
+        return [pane for pane in self._shown_panes() if pane.view.hasFocus()]
 
     def _put_tool_away(self) -> None:
         self.set_tool(SelectTool.name)

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.icons import pixmap, set_icon
-from app.style import RADIUS, colours
+from app.style import colours
 from core.errors import MorphError
 
 Action = tuple[str, Callable[[], object]]
@@ -106,14 +106,15 @@ class MessageBar(QFrame):
         callback()
 
     def _dress(self) -> None:
-        c = colours()
-        ground, edge = (c.error_ground, c.error) if self._error else (c.note_ground, c.accent)
+        """Take the look that the style sheet has for the tone of the message."""
+        self.setProperty("tone", "error" if self._error else "note")
+        self.style().unpolish(self)
+        self.style().polish(self)
+        self._show_icon()
+
+    def _show_icon(self) -> None:
         name = "error" if self._error else "info"
-        self._icon.setPixmap(pixmap(name, 20, c.text, self.devicePixelRatioF()))
-        self.setStyleSheet(
-            f"MessageBar {{ background: {ground}; border: 1px solid {edge};"
-            f" border-radius: {RADIUS}px; }} QLabel {{ background: transparent; }}"
-        )
+        self._icon.setPixmap(pixmap(name, 20, colours().text, self.devicePixelRatioF()))
 
     def _place(self) -> None:
         """Sit at the foot of the parent, as wide as the text wants and the parent allows."""
@@ -132,9 +133,9 @@ class MessageBar(QFrame):
 
     def changeEvent(self, event: QEvent) -> None:
         """Follow the theme."""
-        if event.type() == QEvent.Type.PaletteChange and not self.isHidden():
-            self._dress()
         super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and not self.isHidden():
+            self._show_icon()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Follow the size of the parent."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -23,7 +23,6 @@ from PySide6.QtWidgets import (
 
 from app.icons import set_icon
 from app.settings import Settings
-from app.style import colours
 from app.thumbnails import document_thumbnail
 from core.errors import FileError
 from core.io import project
@@ -57,7 +56,6 @@ class WelcomePanel(QFrame):
         self._make_widgets()
         self._lay_out()
         self._list_recent()
-        self._dress()
         settings.recent_changed.connect(self._list_recent)
         self._draw_later = QTimer(self, singleShot=True, interval=0)
         self._draw_later.timeout.connect(self._draw_next)
@@ -66,7 +64,7 @@ class WelcomePanel(QFrame):
     # -- making it -----------------------------------------------------------------------------
 
     def _make_widgets(self) -> None:
-        self.title = QLabel(self.tr("Welcome to Betwixt"))
+        self.title = QLabel(self.tr("Welcome to Betwixt"), objectName="title")
         self.about = QLabel(
             self.tr("Draw or import two outlines, mark the points that belong together, and play."),
             wordWrap=True,
@@ -152,26 +150,6 @@ class WelcomePanel(QFrame):
 
     def _on_at_start(self, shown: bool) -> None:
         self._settings.welcome = shown
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Follow the theme."""
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "about"):
-            self._dress()
-        super().changeEvent(event)
-
-    def _dress(self) -> None:
-        c = colours()
-        sheet = (
-            f"WelcomePanel {{ border: 0; border-left: 1px solid {c.line}; }}"
-            "QPushButton { padding: 4px 6px; }"
-            f"QLabel#heading {{ color: {c.muted}; font-weight: 600; padding-top: 6px; }}"
-        )
-        if sheet != self.styleSheet():
-            self.setStyleSheet(sheet)
-            font = self.font()
-            font.setPointSizeF(font.pointSizeF() * 1.35)
-            font.setBold(True)
-            self.title.setFont(font)
 
 
 class _Card(QToolButton):

@@ -1,0 +1,270 @@
+"""The table of actions: what artists expect is there, once, and says when it can be done."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLineEdit
+
+import resources
+from app.actions import ENTRIES
+from app.icons import pixmap
+from app.main_window import MainWindow
+from app.menus import MENUS, TOP_BAR, Items
+from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.morph.scene import layer_rings
+from tests.app.window.conftest import press
+
+SQUARE = Outline.polygon([(100, 100), (300, 100), (300, 300), (100, 300)])
+CONVENTIONS = {
+    "new": "Ctrl+N",
+    "open": "Ctrl+O",
+    "save": "Ctrl+S",
+    "save-as": "Ctrl+Shift+S",
+    "import": "Ctrl+I",
+    "export": "Ctrl+E",
+    "undo": "Ctrl+Z",
+    "redo": "Ctrl+Shift+Z Ctrl+Y",
+    "delete": "Del",
+    "tool-select": "V F1",
+    "tool-nodes": "N F2",
+    "tool-pen": "P F3",
+    "tool-freehand": "B F4",
+    "tool-marks": "M F5",
+    "fit": "Ctrl+0",
+    "zoom-100": "Ctrl+1",
+    "flip": "Shift+H",
+    "onion": "O",
+    "insert-key": "F6 K",
+    "draw-key": "F7",
+    "play": "Space Return Enter",
+    "play-from-start": "Shift+Space",
+    "stop": "Esc",
+    "next-frame": "Right .",
+    "previous-frame": "Left ,",
+    "next-key": "Ctrl+Right Alt+.",
+    "previous-key": "Ctrl+Left Alt+,",
+    "first": "Home",
+    "last": "End",
+}
+
+
+def a_document() -> Document:
+    """Two layers; the upper one moves from frame 1 to 25 and has a mark."""
+    places = (RingPoint(0, 0.0),)
+    keys = (Keyframe(1, SQUARE, places), Keyframe(25, SQUARE.transformed([[2, 0], [0, 1]]), places))
+    return Document((Layer(1, "still", (Keyframe(1, SQUARE),)), Layer(2, "card", keys, ("a",))))
+
+
+@pytest.fixture
+def window(window: MainWindow) -> MainWindow:
+    window.workspace.session.replace(a_document())
+    return window
+
+
+def all_ids(items: Items) -> list[str]:
+    ids = []
+    for item in items:
+        ids += all_ids(item[1]) if isinstance(item, tuple) else [item]
+    return [item for item in ids if item != "-"]
+
+
+def test_every_shortcut_that_artists_expect_is_there() -> None:
+    keys = {entry.id: " ".join(entry.keys) for entry in ENTRIES}
+    assert {entry: keys[entry] for entry in CONVENTIONS} == CONVENTIONS
+
+
+def test_no_two_actions_share_an_id_or_a_key() -> None:
+    ids = Counter(entry.id for entry in ENTRIES)
+    keys = Counter(QKeySequence(key).toString() for entry in ENTRIES for key in entry.keys)
+    assert max(ids.values()) == max(keys.values()) == 1
+
+
+def test_every_action_is_in_a_menu_and_every_menu_item_is_an_action() -> None:
+    in_menus = set(all_ids(tuple(MENUS)))
+    ids = {entry.id for entry in ENTRIES}
+    assert in_menus == ids
+    assert set(all_ids(TOP_BAR)) <= ids
+
+
+def test_every_icon_that_is_named_can_be_drawn(qapp: QApplication) -> None:
+    for entry in ENTRIES:
+        if entry.icon:
+            image = pixmap(entry.icon, 32, "#000000").toImage()
+            assert any(image.pixelColor(x, y).alpha() for x in range(32) for y in range(32))
+
+
+def test_menu_mnemonics_are_unique_within_each_menu() -> None:
+    texts = {entry.id: entry.text for entry in ENTRIES}
+
+    def check(items: Items) -> None:
+        titles = [item[0] if isinstance(item, tuple) else texts.get(item, "") for item in items]
+        letters = [text[text.index("&") + 1].lower() for text in titles if "&" in text]
+        assert len(letters) == len(set(letters)), titles
+        for item in items:
+            if isinstance(item, tuple):
+                check(item[1])
+
+    check(tuple(MENUS))
+
+
+def test_the_edit_menu_names_the_steps(window: MainWindow) -> None:
+    press(window, "Ctrl+D")
+    assert window.actions_["undo"].text() == "&Undo Duplicate layer"
+    press(window, "Ctrl+Z")
+    assert window.actions_["redo"].text() == "&Redo Duplicate layer"
+    assert not window.actions_["undo"].isEnabled()
+
+
+@pytest.mark.parametrize(
+    ("keys", "tool"), [("N", "nodes"), ("F3", "pen"), ("B", "freehand"), ("M", "marks")]
+)
+def test_keys_take_tools_and_escape_puts_them_away(
+    window: MainWindow, keys: str, tool: str
+) -> None:
+    press(window, keys)
+    assert window.canvas.tool == tool
+    assert window.actions_[f"tool-{tool}"].isChecked()
+    press(window, "Esc")
+    assert window.canvas.tool == "select"
+    assert window.actions_["tool-select"].isChecked()
+
+
+def test_keys_move_the_playhead(window: MainWindow) -> None:
+    frames = []
+    for keys in ("Right", ".", "Left", "Alt+.", "Ctrl+Left", "End", "Home", ","):
+        press(window, keys)
+        frames.append(window.workspace.playhead.frame)
+    assert frames == [2, 3, 2, 25, 1, 25, 1, 1]
+
+
+def test_space_plays_with_the_focus_on_the_canvas_or_elsewhere(window: MainWindow) -> None:
+    for part in (window.canvas, window.timeline):
+        part.setFocus()
+        press(window, "Space")
+        assert window.workspace.playhead.playing
+        press(window, "Esc")
+        assert not window.workspace.playhead.playing
+
+
+def test_space_presses_a_button_that_has_the_focus(window: MainWindow) -> None:
+    window.toggle_welcome()
+    box = window.welcome.at_start
+    box.setFocus(Qt.FocusReason.TabFocusReason)
+    press(window, "Space")
+    assert not box.isChecked()
+    assert not window.workspace.playhead.playing
+
+
+def test_letters_typed_into_a_field_take_no_tool(window: MainWindow) -> None:
+    field = next(f for f in window.properties.findChildren(QLineEdit) if f.isVisible())
+    field.setFocus()
+    QTest.keyClicks(field, "p")
+    assert window.canvas.tool == "select"
+
+
+def test_insert_keyframe_makes_the_in_between_on_screen_a_key(
+    window: MainWindow, qtbot: object
+) -> None:
+    qtbot.waitUntil(lambda: not window.workspace.solver.busy)
+    window.workspace.playhead.move_to(13)
+    before = window.workspace.session.document
+    shown = layer_rings(window.workspace.selection.layer, 13, window.workspace.solver.morph_of)
+    press(window, "K")
+    layer = window.workspace.selection.layer
+    assert [key.frame for key in layer.keyframes] == [1, 13, 25]
+    assert window.workspace.selection.key == 1
+    assert np.array_equal(layer.keyframes[1].outline.rings[0].points, shown[0])
+    assert not window.actions_["insert-key"].isEnabled()
+    press(window, "Shift+Del")
+    assert window.workspace.session.document == before
+
+
+def test_delete_removes_what_is_selected(window: MainWindow) -> None:
+    selection = window.workspace.selection
+    press(window, "Ctrl+A")
+    assert len(selection.nodes) == 4
+    selection.select_nodes(frozenset({(0, 2)}))
+    window.actions_["delete"].trigger()
+    assert len(selection.keyframe.outline.rings[0]) == 3
+    selection.select_mark(0)
+    window.actions_["delete"].trigger()
+    assert selection.layer.labels == ()
+    window.workspace.playhead.move_to(25)
+    window.actions_["delete"].trigger()
+    assert [key.frame for key in selection.layer.keyframes] == [1]
+
+
+def test_layers_can_be_duplicated_reordered_hidden_and_deleted_by_keys(window: MainWindow) -> None:
+    names = lambda: [layer.name for layer in window.workspace.session.document.layers]  # noqa: E731
+    press(window, "Ctrl+D")
+    assert names() == ["still", "card", "card copy"]
+    assert window.workspace.selection.layer.name == "card copy"
+    press(window, "Ctrl+[")
+    assert names() == ["still", "card copy", "card"]
+    press(window, "PgDown")
+    assert window.workspace.selection.layer.name == "still"
+    window.actions_["layer-visible"].trigger()
+    assert not window.workspace.selection.layer.visible
+    assert not window.actions_["layer-visible"].isChecked()
+    window.actions_["remove-layer"].trigger()
+    assert names() == ["card copy", "card"]
+
+
+def test_a_locked_layer_is_not_edited_and_the_message_says_so(window: MainWindow) -> None:
+    window.actions_["layer-locked"].trigger()
+    before = window.workspace.session.document
+    window.workspace.playhead.move_to(13)
+    for action in ("insert-key", "remove-key", "remove-marks", "easing-hold"):
+        window.actions_[action].trigger()
+        assert window.workspace.session.document is before
+        assert "locked" in window.messages.text
+
+
+def test_easing_is_set_for_the_span_under_the_playhead_and_shown_in_the_menu(
+    window: MainWindow,
+) -> None:
+    window.actions_["easing-ease in"].trigger()
+    assert window.workspace.selection.layer.keyframes[0].easing.x1 == 0.42
+    assert window.actions_["easing-ease in"].isChecked()
+    press(window, "Ctrl+Z")
+    assert window.actions_["easing-linear"].isChecked()
+
+
+def test_view_options_switch_and_are_remembered(window: MainWindow, open_window: object) -> None:
+    press(window, "Shift+M")
+    press(window, "Ctrl+3")
+    assert window.workspace.view.mesh
+    window.close()
+    again = open_window()
+    assert again.workspace.view.mesh
+    assert again.workspace.view.layout == "overlay"
+    assert again.actions_["mesh"].isChecked()
+
+
+def test_draw_keyframe_here_makes_what_is_drawn_a_key_under_the_playhead(
+    window: MainWindow,
+) -> None:
+    window.workspace.playhead.move_to(13)
+    press(window, "F7")
+    assert window.canvas.tool == "pen"
+    assert window.workspace.view.layout == "overlay"
+
+
+def test_every_control_has_a_name_and_is_large_enough_to_hit(window: MainWindow) -> None:
+    window.toggle_welcome()
+    QApplication.processEvents()
+    for part in (window.welcome, window.status, window.messages):
+        for button in part.findChildren(QAbstractButton):
+            if button.isVisible():
+                assert button.accessibleName() or button.text(), button
+                assert min(button.width(), button.height()) >= 24, button.text()
+
+
+def test_samples_come_with_the_program() -> None:
+    assert resources.samples()
