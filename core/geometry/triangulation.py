@@ -69,32 +69,32 @@ def triangulate(rings: Sequence[Array], max_area: float) -> Mesh:
     return Mesh(points, _oriented(points, triangles), tuple(indices))
 
 
-def triangulate_polygon(points: Array, diagonals: Indices) -> Indices:
-    """Triangulate a closed polyline (b, 2) without new vertices, by constrained Delaunay.
+def triangulate_polygon(rings: Sequence[Array], diagonals: Indices) -> Indices:
+    """Triangulate the inside of rings without new vertices, by constrained Delaunay.
 
-    ``diagonals`` (k, 2) are pairs of its indices that must become edges. Returns (b − 2, 3)
-    indices. The polyline may run along an edge twice, there and back, as one does that cuts an
-    outline with holes open: each triangle is then given the corners of its own side of the cut.
+    Returns (m, 3) numbers of ring vertices, counted through all rings. ``diagonals`` (k, 2) are
+    pairs of them that must become edges. A ring may run along an edge twice, there and back, as one
+    does that cuts an outline open: a triangle then has the corners of its own side of the cut.
     """
     import triangle  # loading it is slow, and only solving needs it
 
-    b = len(points)
-    places, number = np.unique(points, axis=0, return_inverse=True)
-    edges = np.column_stack([number, np.roll(number, -1)])
+    places, number = np.unique(np.concatenate(rings), axis=0, return_inverse=True)
+    ends = np.split(number, np.cumsum([len(ring) for ring in rings])[:-1])
+    edges = np.concatenate([np.column_stack([end, np.roll(end, -1)]) for end in ends])
     segments = np.unique(np.sort(np.concatenate([edges, number[diagonals]]), axis=1), axis=0)
     result = triangle.triangulate({"vertices": places, "segments": segments}, "p")
-    corners = _corners_of_polygon(result["triangles"].astype(np.int64), edges)
+    corners = _ring_corners(result["triangles"].astype(np.int64), edges)
     corners = corners[(corners >= 0).all(axis=1)]
-    if len(result["vertices"]) != len(places) or len(corners) != b - 2:
+    if len(result["vertices"]) != len(places) or len(corners) != len(number) + 2 * len(rings) - 4:
         raise _untriangulable()
     return corners
 
 
-def _corners_of_polygon(triangles: Indices, edges: Indices) -> Indices:
-    """Return (m, 3) the index along a closed polyline of each triangle's corners; -1 outside.
+def _ring_corners(triangles: Indices, edges: Indices) -> Indices:
+    """Return (m, 3) at which ring vertex each triangle's corners lie; -1 outside.
 
-    ``edges`` (b, 2) are its directed edges, by the vertex numbers that ``triangles`` use. Corners
-    at a vertex are one corner of the polyline when they meet across edges that are not its own.
+    ``edges`` (b, 2) are the rings' directed edges, one from each ring vertex, by the vertex numbers
+    that ``triangles`` use. Corners belong together when they meet across any other edge.
     """
     n = int(triangles.max()) + 1
     tail = triangles.ravel()

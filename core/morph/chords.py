@@ -60,7 +60,7 @@ def _negotiated(source: Array, target: Array, shared: Indices) -> Indices:
     ends = (source, target)
     for turn in range(TURNS):
         here, there = ends[turn % 2], ends[1 - turn % 2]
-        fresh = _without(_diagonals(triangulate_polygon(here, shared)), shared)
+        fresh = _without(_diagonals(triangulate_polygon([here], shared)), shared)
         fresh = fresh[sees(there, fresh)]
         if turn and not len(fresh):
             break
@@ -69,7 +69,7 @@ def _negotiated(source: Array, target: Array, shared: Indices) -> Indices:
 
 
 def _with_shared(source: Array, target: Array, shared: Indices) -> ChordSets:
-    ours, theirs = (_diagonals(triangulate_polygon(end, shared)) for end in (source, target))
+    ours, theirs = (_diagonals(triangulate_polygon([end], shared)) for end in (source, target))
     only_ours = _without(ours, theirs)
     return ChordSets(_without(ours, only_ours), only_ours, _without(theirs, ours))
 

@@ -9,6 +9,7 @@ straight lines, hence convex, and any fan of triangles fills it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
@@ -17,33 +18,38 @@ import numpy as np
 from core.geometry.polyline import cross
 from core.geometry.triangulation import Indices, Mesh
 from core.model.outline import Array
+from core.morph.bridges import cut_open
 from core.morph.chords import chord_sets, crossing
 
 MOST_SIDES = 6
 """Two triangles have at most a hexagon in common."""
 
 
-def compatible_mesh(source: Array, target: Array) -> tuple[Mesh, Array]:
+def compatible_mesh(source: Sequence[Array], target: Sequence[Array]) -> tuple[Mesh, Array]:
     """Return a mesh of the source, and target positions (n, 2) of its vertices; every triangle is
     positive in both.
 
-    ``source`` and ``target`` (b, 2) are simple polygons, counter-clockwise, whose vertices
-    correspond. They are the first vertices of the mesh, and its edges are those of the boundary.
+    The rings (k, 2) of both, exterior first, correspond vertex by vertex; exteriors run
+    counter-clockwise, holes clockwise, around about unit area. Their vertices come first in the
+    mesh, and its border edges are theirs.
     """
-    b = len(source)
-    chords = chord_sets(source, target)
+    cut = cut_open(source, target)
+    walk, b = cut.walk, len(cut.walk)
+    ours, theirs = cut.source[walk], cut.target[walk]
+    chords = chord_sets(ours, theirs)
     pairs = np.argwhere(crossing(chords.source, chords.target))
     along_source = _Crossed.of(chords.source, pairs[:, 0], chords.target[pairs[:, 1]], b)
     along_target = _Crossed.of(chords.target, pairs[:, 1], chords.source[pairs[:, 0]], b)
-    points = np.vstack([source, along_source.points(source)])
-    image = np.vstack([target, along_target.points(target)])
-    ring = np.arange(b)
-    uncrossed = np.concatenate([np.column_stack([ring, np.roll(ring, -1)]), chords.shared])
+    points = np.vstack([cut.source, along_source.points(ours)])
+    image = np.vstack([cut.target, along_target.points(theirs)])
+    step = np.arange(b)
+    uncrossed = np.concatenate([np.column_stack([step, np.roll(step, -1)]), chords.shared])
     halves = np.concatenate(
         [_both_ways(uncrossed, uncrossed), along_source.halves(b), along_target.halves(b)]
     )
-    triangles = [_fans(cells, points, image) for cells in _cells(halves, b)]
-    return Mesh(points, np.concatenate(triangles), (ring,)), image
+    number = np.concatenate([walk, len(cut.source) + np.arange(len(pairs))])  # sews up the cut
+    triangles = [_fans(number[cells], points, image) for cells in _cells(halves, b)]
+    return Mesh(points, np.concatenate(triangles), cut.rings), image
 
 
 @dataclass(frozen=True, eq=False)

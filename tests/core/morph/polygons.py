@@ -42,6 +42,21 @@ def needle(count: int, width: float) -> Array:
     return at_unit_area(resample(np.array([[0.0, 0], [1, 0], [1, width], [0, width]]), count))
 
 
+def hole(
+    x: float, turn: float, centre: Array | tuple[float, float] = (0, 0), radius: float = 0.1
+) -> Array:
+    """A small clockwise ring of 12 vertices, ``x`` to the right of a centre."""
+    angle = turn - 2 * np.pi * np.arange(12) / 12
+    return np.asarray(centre) + [x, 0] + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def hole_within(polygon: Array) -> Array:
+    """A small hole somewhere inside a polygon."""
+    inside = Polygon(polygon).representative_point()
+    room = inside.distance(Polygon(polygon).exterior)
+    return hole(0, 0, (inside.x, inside.y), 0.4 * room)
+
+
 @st.composite
 def star_shaped(draw: st.DrawFn, count: int) -> Array:
     radius = draw(st.lists(st.floats(0.1, 1), min_size=count, max_size=count))
@@ -75,7 +90,3 @@ def _first_crossing(walk: Array) -> tuple[int, int] | None:
             if (i or j < len(edges) - 1) and edges[i].intersects(edges[j]):
                 return i, j
     return None
-
-
-def is_simple(points: Array) -> bool:
-    return bool(Polygon(points).is_valid)

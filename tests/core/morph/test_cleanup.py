@@ -18,19 +18,23 @@ from core.morph.quality import smallest_angle
 from core.morph.removal import remove
 from core.morph.smoothing import GOOD, smooth
 from tests.core.morph.polygons import comb, disc, needle, star_shaped, untangled
-from tests.core.morph.test_overlay import PAIRS, B, check_fits
+from tests.core.morph.test_overlay import HOLES, PAIRS, B, check_fits
 
 AREA = 1 / 200
 
 
+def outlines(name: str) -> tuple[list[Array], list[Array]]:
+    source, target = PAIRS[name]
+    return [source], [target]
+
+
 def joint(name: str) -> JointMesh:
-    return JointMesh.of(*compatible_mesh(*PAIRS[name]))
+    return JointMesh.of(*compatible_mesh(*outlines(name)))
 
 
 def check_joint(mesh: JointMesh, name: str) -> None:
-    source, target = PAIRS[name]
     ring = np.arange(mesh.boundary_size)
-    check_fits(Mesh(mesh.end(0), mesh.triangles, (ring,)), mesh.end(1), source, target)
+    check_fits(Mesh(mesh.end(0), mesh.triangles, (ring,)), mesh.end(1), *outlines(name))
 
 
 def corners(mesh: JointMesh) -> list[frozenset[complex]]:
@@ -44,7 +48,12 @@ def worst(mesh: JointMesh) -> float:
 
 @pytest.mark.parametrize("name", PAIRS)
 def test_the_clean_mesh_fits_both_polygons(name: str) -> None:
-    source, target = PAIRS[name]
+    check_fits(*improve(*compatible_mesh(*outlines(name)), AREA), *outlines(name))
+
+
+@pytest.mark.parametrize("name", HOLES)
+def test_the_clean_mesh_fits_outlines_with_holes(name: str) -> None:
+    source, target = HOLES[name]
     check_fits(*improve(*compatible_mesh(source, target), AREA), source, target)
 
 
@@ -54,19 +63,19 @@ def test_the_clean_mesh_fits_wild_polygons_at_any_shift(
     source: Array, target: Array, shift: int
 ) -> None:
     target = np.roll(target, shift, axis=0)
-    check_fits(*improve(*compatible_mesh(source, target), AREA), source, target)
+    check_fits(*improve(*compatible_mesh([source], [target]), AREA), [source], [target])
 
 
 def test_a_polygon_and_its_copy_get_an_even_mesh_without_distortion() -> None:
     source = comb(4, 120)
-    mesh, image = improve(*compatible_mesh(source, source), AREA)
+    mesh, image = improve(*compatible_mesh([source], [source]), AREA)
     assert smallest_angle(mesh.points, mesh.triangles) > np.radians(20)
     assert np.abs(image - mesh.points).max() < 0.02
 
 
 @pytest.mark.parametrize("name", ["spiral and disc", "comb and square", "spiral and comb"])
 def test_the_clean_mesh_has_wider_angles_than_the_overlay(name: str) -> None:
-    mesh, image = compatible_mesh(*PAIRS[name])
+    mesh, image = compatible_mesh(*outlines(name))
     clean, clean_image = improve(mesh, image, AREA)
     before = min(smallest_angle(points, mesh.triangles) for points in (mesh.points, image))
     after = min(smallest_angle(p, clean.triangles) for p in (clean.points, clean_image))
@@ -74,14 +83,14 @@ def test_the_clean_mesh_has_wider_angles_than_the_overlay(name: str) -> None:
 
 
 def test_a_smaller_area_gives_more_triangles() -> None:
-    mesh, image = compatible_mesh(disc(60), np.roll(disc(60), 20, axis=0))
+    mesh, image = compatible_mesh([disc(60)], [np.roll(disc(60), 20, axis=0)])
     counts = [len(improve(mesh, image, area)[0].triangles) for area in (1 / 50, 1 / 200, 1 / 800)]
     assert all(few < many for few, many in pairwise(counts))
 
 
 def test_triangles_too_thin_for_floating_point_are_left_alone() -> None:
     source = needle(12, 1e-20)
-    mesh, image = improve(*compatible_mesh(source, source), AREA)
+    mesh, image = improve(*compatible_mesh([source], [source]), AREA)
     assert np.isfinite(mesh.points).all()
     assert np.array_equal(image[:12], source)
 
@@ -91,7 +100,7 @@ def test_the_clean_up_can_be_cancelled() -> None:
         raise Cancelled
 
     with pytest.raises(Cancelled):
-        improve(*compatible_mesh(disc(9), disc(9)), AREA, cancel)
+        improve(*compatible_mesh([disc(9)], [disc(9)]), AREA, cancel)
 
 
 @pytest.mark.parametrize("name", PAIRS)
