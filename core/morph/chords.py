@@ -86,9 +86,9 @@ def _best_new(source: Array, target: Array, chords: ChordSets) -> Indices:
     gap = pairs[:, 1] - pairs[:, 0]
     pairs = pairs[(gap > 1) & (gap < len(source) - 1)]
     pairs = _without(pairs, np.concatenate([chords.shared, chords.source, chords.target]))
+    pairs = pairs[~crossing(pairs, chords.shared).any(axis=1)]
     for polygon in (source, target):
         pairs = pairs[sees(polygon, pairs)]
-    pairs = pairs[~crossing(pairs, chords.shared).any(axis=1)]
     saved = [crossing(pairs, only).sum(axis=1) for only in (chords.source, chords.target)]
     pairs = pairs[np.argsort(-saved[0] * saved[1], kind="stable")]
     clash = crossing(pairs, pairs)

@@ -80,7 +80,7 @@ def _thinned(mesh: JointMesh, size: float) -> JointMesh:
         wanted = _wanted_sizes(mesh, size)
         length = mesh.lengths(mesh.tail, mesh.head)
         short = length < SHORT * (wanted[mesh.tail] + wanted[mesh.head]) / 2
-        poor = mesh.worst_around(mesh.quality.min(axis=1))[mesh.tail] < POOR
+        poor = mesh.worst_around(mesh.worse)[mesh.tail] < POOR
         thinner = remove(mesh, short | poor, np.where(short, POOR, np.inf))
         if len(thinner.points) == len(mesh.points):
             break
@@ -128,7 +128,7 @@ def _fitted(mesh: JointMesh) -> JointMesh:
 
 def _newton(mesh: JointMesh, rest: Elements, ends: tuple[int, ...], steps: int) -> JointMesh:
     """Take Newton steps to less distortion between the rest shapes and the triangles at ends."""
-    if len(mesh.points) == mesh.boundary_size or mesh.quality.min() < FLAT:
+    if len(mesh.points) == mesh.boundary_size or mesh.worse.min() < FLAT:
         return mesh
     free = FreeVertices(rest, np.arange(mesh.boundary_size, len(mesh.points)))
     density = SymmetricDirichlet()

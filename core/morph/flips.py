@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.morph.joint import JointMesh, quality
+from core.morph.joint import JointMesh, quality, worse_end
 
 GAIN = 0.02
 """A flip must improve by this fraction, so that flipping ends."""
@@ -25,10 +25,9 @@ def _flip_once(mesh: JointMesh) -> JointMesh:
     first, second = mesh.twins.T
     u, v = mesh.tail[first], mesh.head[first]
     left, right = mesh.apex[first], mesh.apex[second]
-    worst = mesh.quality.min(axis=1)
-    before = np.minimum(worst[first // 3], worst[second // 3])
+    before = np.minimum(mesh.worse[first // 3], mesh.worse[second // 3])
     near_u, near_v = np.column_stack([left, u, right]), np.column_stack([right, v, left])
-    after = np.minimum(quality(mesh.points, near_u), quality(mesh.points, near_v)).min(axis=1)
+    after = worse_end(np.minimum(quality(mesh.points, near_u), quality(mesh.points, near_v)))
     gain = after - before
     # a flip that is not convex at an end gives a negative triangle there, and is no gain
     wanted = np.flatnonzero(gain > GAIN * before)

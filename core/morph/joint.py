@@ -54,6 +54,11 @@ class JointMesh:
         return quality(self.points, self.triangles)
 
     @cached_property
+    def worse(self) -> Array:
+        """(m,) the lower quality of both ends."""
+        return worse_end(self.quality)
+
+    @cached_property
     def tail(self) -> Indices:
         """(3m,) start of each half-edge; number 3t + k leads from corner k of t to the next."""
         return self.triangles.ravel()
@@ -73,14 +78,14 @@ class JointMesh:
         """(k, 2) pairs of half-edges that are one inner edge."""
         low, high = np.minimum(self.tail, self.head), np.maximum(self.tail, self.head)
         key = low * len(self.points) + high
-        order = np.argsort(key, kind="stable")
+        order = _sorting(key)
         same = np.flatnonzero(key[order[1:]] == key[order[:-1]])
         return np.column_stack([order[same], order[same + 1]])
 
     @cached_property
     def stars(self) -> tuple[Indices, Indices]:
         """Half-edges (3m,) sorted by tail, and (n + 1,) where each vertex's begin."""
-        order = np.argsort(self.tail, kind="stable")
+        order = _sorting(self.tail)
         return order, np.searchsorted(self.tail[order], np.arange(len(self.points) + 1))
 
     def worst_around(self, values: Array) -> Array:
@@ -105,6 +110,20 @@ def quality(points: Complex, triangles: Indices) -> Array:
     product = np.conj(u) * v
     sides = u.real**2 + u.imag**2 + v.real**2 + v.imag**2 - product.real
     return np.sqrt(3) * product.imag / np.maximum(sides, TINY)
+
+
+def worse_end(values: Array) -> Array:
+    """Return (...) the lower of both ends' values (..., 2)."""
+    return np.minimum(values[..., 0], values[..., 1])
+
+
+def _sorting(keys: Indices) -> Indices:
+    """Return the indices (k,) that sort keys, equal ones by index.
+
+    Key and index are sorted as one number, which is several times faster than a stable argsort.
+    """
+    count = len(keys)
+    return np.sort(keys * count + np.arange(count)) % count
 
 
 def _complex(points: Array) -> Complex:

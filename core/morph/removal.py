@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.joint import JointMesh, quality
+from core.morph.joint import JointMesh, quality, worse_end
 
 
 def remove(mesh: JointMesh, unwanted: NDArray[np.bool_], fair: Array) -> JointMesh:
@@ -19,7 +19,7 @@ def remove(mesh: JointMesh, unwanted: NDArray[np.bool_], fair: Array) -> JointMe
     edge = np.flatnonzero(unwanted & (mesh.tail >= mesh.boundary_size))
     if not len(edge):
         return mesh
-    before = mesh.worst_around(mesh.quality.min(axis=1))[mesh.tail[edge]]
+    before = mesh.worst_around(mesh.worse)[mesh.tail[edge]]
     after = _worst_after(mesh, edge)
     possible = after > np.maximum(np.minimum(before, fair[edge]), 0)
     edge, after = edge[possible], after[possible]
@@ -44,7 +44,7 @@ def _worst_after(mesh: JointMesh, edge: Indices) -> Array:
     head = np.repeat(head, size)
     fan = np.column_stack([head, mesh.head[spoke], mesh.apex[spoke]])
     vanishes = (fan[:, 1] == head) | (fan[:, 2] == head)
-    worst = np.where(vanishes, np.inf, quality(mesh.points, fan).min(axis=1))
+    worst = np.where(vanishes, np.inf, worse_end(quality(mesh.points, fan)))
     return np.minimum.reduceat(worst, first)
 
 
