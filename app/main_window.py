@@ -58,7 +58,7 @@ class MainWindow(QMainWindow):
         self._make_actions()
         self._wire()
         self.setAcceptDrops(True)
-        self.resize(FIRST_SIZE)
+        self.resize(FIRST_SIZE.boundedTo(self.screen().availableSize()))
         self._first_layout = self.saveState()
         self._aside: list[QDockWidget] = []
         """Panels that the welcome panel stands in for."""

@@ -32,7 +32,7 @@ MENUS: tuple[Menu, ...] = (
     ("&Layer", ("duplicate-layer", "remove-layer", "-", "raise-layer", "lower-layer", "-",
                 "layer-above", "layer-below", "-", "layer-visible", "layer-locked")),
     ("&Keyframe", ("insert-key", "draw-key", "remove-key", "-", "previous-key", "next-key", "-",
-                   ("&Easing after it", tuple(f"easing-{preset}" for preset in PRESETS)))),
+                   ("&Easing of the span", tuple(f"easing-{preset}" for preset in PRESETS)))),
     ("&Mark", ("tool-marks", "marks", "-", "remove-mark", "remove-marks")),
     ("&Playback", ("play", "play-from-start", "stop", "-", "previous-frame", "next-frame", "first",
                    "last", "-", ("At the &end", ("loop-loop", "loop-ping-pong", "loop-once")),
@@ -114,6 +114,7 @@ class Actions(QObject):
         action = QAction(translated(entry.text), group)
         action.setObjectName(entry.id)
         action.setCheckable(entry.on is not None)
+        action.setIconVisibleInMenu(entry.on is None)  # else it would stand where the tick does
         action.setShortcuts([QKeySequence(key) for key in entry.keys])
         plain = translated(entry.text).replace("&", "").rstrip("…")
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)

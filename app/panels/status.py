@@ -10,6 +10,8 @@ from app.style import Colours, colours
 from app.workspace import Workspace
 from core.morph.scene import span_of
 
+TELL_MS = 50
+"""How often progress is shown."""
 PATIENCE_MS = 200
 """Solving that is done sooner goes unmentioned, so that nothing flickers."""
 
@@ -42,6 +44,9 @@ class StatusStrip(QStatusBar):
             self.addPermanentWidget(widget)
         self._late = QTimer(self, singleShot=True, interval=PATIENCE_MS)
         self._late.timeout.connect(self._show_solving)
+        self._told: tuple[float, str] = (0.0, "")
+        self._tell = QTimer(self, singleShot=True, interval=TELL_MS)
+        self._tell.timeout.connect(self._show_progress)
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._judge)
         workspace.solver.busy_changed.connect(self._on_busy)
@@ -79,8 +84,15 @@ class StatusStrip(QStatusBar):
             widget.setVisible(shown)
 
     def _on_progress(self, fraction: float, stage: str) -> None:
-        self.bar.setValue(round(1000 * fraction))
-        self.stage.setText(self.tr("Solving: {stage}").format(stage=stage) if stage else "")
+        self._told = fraction, stage
+        if not self._tell.isActive():
+            self._tell.start()
+
+    def _show_progress(self) -> None:
+        fraction, stage = self._told
+        if self.bar.isVisible():  # a bar repaints at once, which would cost the drag its frames
+            self.bar.setValue(round(1000 * fraction))
+            self.stage.setText(self.tr("Solving: {stage}").format(stage=stage) if stage else "")
 
     # -- the verdict ---------------------------------------------------------------------------
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from threading import Lock
+from typing import Any
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
@@ -29,14 +31,22 @@ class Morph:
     """(2,) where those coordinates have their zero."""
     unit: float
     """Their length unit."""
+    _last: list[Any] = field(default_factory=lambda: [None, None], init=False, repr=False)
+    """The last s and its positions: several views ask for the same frame."""
+    _lock: Lock = field(default_factory=Lock, init=False, repr=False)
 
     def at(self, s: float) -> Array:
         """Return positions (n, 2) at progress s: the source at 0, the target at 1, both exactly.
 
-        Outside [0, 1] the motion is carried on, for easings that overshoot.
+        Outside [0, 1] the motion is carried on, for easings that overshoot. The array is read-only.
         """
         if s == 0:
             return self.rest
         if s == 1:
             return self.target
-        return self.origin + self.unit * self.inbetween(s)
+        with self._lock:  # the guard against folds factors in place
+            if self._last[0] != s:
+                positions = self.origin + self.unit * self.inbetween(s)
+                positions.setflags(write=False)
+                self._last[:] = s, positions
+            return self._last[1]
