@@ -12,12 +12,9 @@ from core.errors import EditError
 from core.model import Layer
 from core.model.easing import PRESETS
 from core.model.edits import (
-    duplicate_layer,
     insert_keyframe,
     remove_keyframe,
-    remove_layer,
     remove_marks,
-    reorder_layer,
     set_easing,
     update_layer,
 )
@@ -66,26 +63,6 @@ class Commands(QObject):
 
     # -- layers --------------------------------------------------------------------------------
 
-    def duplicate_layer(self) -> None:
-        """Add a copy of the current layer above it, and make it current."""
-        layer = self._layer()
-        name = self.tr("{name} copy").format(name=layer.name)
-        if self._session.apply(self.tr("Duplicate layer"), duplicate_layer, layer.id, name):
-            layers = self._session.document.layers
-            self._selection.select_layer(layers[self._index(layer) + 1].id)
-
-    def remove_layer(self) -> None:
-        """Delete the current layer."""
-        self._session.apply(self.tr("Delete layer"), remove_layer, self._unlocked().id)
-
-    def move_layer(self, by: int) -> None:
-        """Move the current layer up in the stack, or down if negative."""
-        layer = self._layer()
-        index = self._index(layer) + by
-        if 0 <= index < len(self._session.document.layers):
-            text = self.tr("Raise layer") if by > 0 else self.tr("Lower layer")
-            self._session.apply(text, reorder_layer, layer.id, index)
-
     def select_layer(self, by: int) -> None:
         """Make the next layer up current, or the next one down if negative."""
         layers = self._session.document.layers
@@ -133,14 +110,14 @@ class Commands(QObject):
         """Remove the selected mark."""
         layer, mark = self._unlocked(), self._selection.mark
         if mark is not None:
-            text = self.tr("Remove mark {letter}").format(letter=layer.labels[mark])
+            text = self.tr("Delete mark {letter}").format(letter=layer.labels[mark])
             self._session.apply(text, remove_marks, layer.id, [mark])
 
     def remove_all_marks(self) -> None:
         """Remove every mark of the current layer."""
         layer = self._unlocked()
         marks = range(len(layer.labels))
-        self._session.apply(self.tr("Remove all marks"), remove_marks, layer.id, marks)
+        self._session.apply(self.tr("Delete all marks"), remove_marks, layer.id, marks)
 
     # -- shared --------------------------------------------------------------------------------
 

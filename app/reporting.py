@@ -117,7 +117,7 @@ class Reporter(QObject):
         actions: list[Action] = []
         marks = [mark for mark in error.where.marks if mark < len(layer.labels)]
         if marks:
-            text = self.tr("Remove mark {letter}").format(letter=layer.labels[marks[-1]])
+            text = self.tr("Delete mark {letter}").format(letter=layer.labels[marks[-1]])
             actions.append((text, partial(self._remove_mark, layer.id, marks[-1], text)))
         if _has_place(error.where):
             actions.append((self.tr("Show place"), partial(self._show_place, error, key)))

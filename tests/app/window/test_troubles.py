@@ -45,7 +45,7 @@ def test_marks_out_of_order_are_named_shown_and_removed_with_one_click(
     session.replace(a_document(crossed=True))
     qtbot.waitUntil(lambda: bool(window.messages.text))
     assert "not solved" in window.status.badge.text()
-    (remove,) = (text for text in mends(window) if text.startswith("Remove mark"))
+    (remove,) = (text for text in mends(window) if text.startswith("Delete mark"))
     QTest.mouseClick(mends(window)[remove], LEFT)
     assert len(session.document.layers[0].labels) == 2
     qtbot.waitUntil(lambda: window.workspace.solver.state(1, 0) is SpanState.SOLVED)
