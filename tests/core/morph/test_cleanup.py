@@ -1,13 +1,16 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely import Polygon
 
 from core.errors import Cancelled
+from core.geometry.polyline import resample
 from core.geometry.triangulation import Mesh, split_edges, unique_edges
 from core.model.outline import Array
 from core.morph.cleanup import improve
@@ -17,7 +20,7 @@ from core.morph.overlay import compatible_mesh
 from core.morph.quality import smallest_angle
 from core.morph.removal import remove
 from core.morph.smoothing import GOOD, smooth
-from tests.core.morph.polygons import comb, disc, needle, star_shaped, untangled
+from tests.core.morph.polygons import at_unit_area, comb, disc, needle, star_shaped, untangled
 from tests.core.morph.test_overlay import HOLES, PAIRS, B, check_fits
 
 AREA = 1 / 200
@@ -64,6 +67,18 @@ def test_the_clean_mesh_fits_wild_polygons_at_any_shift(
 ) -> None:
     target = np.roll(target, shift, axis=0)
     check_fits(*improve(*compatible_mesh([source], [target]), AREA), [source], [target])
+
+
+@pytest.mark.sweep
+@pytest.mark.parametrize("first", range(0, 40, 4))
+def test_the_clean_mesh_fits_real_outlines_of_any_two_kinds(shared_data: Path, first: int) -> None:
+    outlines = np.load(shared_data / "mpeg7_outlines.npz")
+    names = sorted(outlines.files)
+    for name, other in zip(names[first::40], names[first + 17 :: 40], strict=False):
+        rings = [at_unit_area(resample(outlines[n].astype(float), 150)) for n in (name, other)]
+        if all(Polygon(ring).is_valid for ring in rings):
+            source, target = ([ring] for ring in rings)
+            check_fits(*improve(*compatible_mesh(source, target), AREA), source, target)
 
 
 def test_a_polygon_and_its_copy_get_an_even_mesh_without_distortion() -> None:
