@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -41,29 +42,47 @@ def place(
 
     ``watch(stage)`` is called before every step and may raise ``Cancelled``.
     """
-    elements = Elements.of(mesh.points, mesh.triangles)
-    free = np.arange(mesh.boundary_size, len(mesh.points))
-    history: list[Iteration] = []
+    watch("harmonic map")
+    problem = _Problem(mesh, watch)
+    x = harmonic(problem.elements, boundary)
+    if len(problem.free) and _lowest(problem.elements, x) <= VALID:
+        x = untangle(problem.vertices, x, problem.observe("untangle"))
+    return problem.settled(x, recipe)
 
-    def observe(stage: str) -> Callable[[float, Array], None]:
+
+def settle(
+    mesh: Mesh, x: Array, recipe: Recipe, watch: Callable[[str], None] = lambda stage: None
+) -> Placed:
+    """Bring the material's energy to its minimum from positions x (n, 2) without folds."""
+    return _Problem(mesh, watch).settled(x, recipe)
+
+
+class _Problem:
+    """The free vertices of a mesh, and the history of moving them."""
+
+    def __init__(self, mesh: Mesh, watch: Callable[[str], None]) -> None:
+        self.elements = Elements.of(mesh.points, mesh.triangles)
+        self.free = np.arange(mesh.boundary_size, len(mesh.points))
+        self._watch = watch
+        self._history: list[Iteration] = []
+
+    @cached_property
+    def vertices(self) -> FreeVertices:
+        return FreeVertices(self.elements, self.free)
+
+    def observe(self, stage: str) -> Callable[[float, Array], None]:
         def note(energy: float, x: Array) -> None:
-            history.append(Iteration(stage, energy, folded(elements, x)))
-            watch(stage)
+            self._history.append(Iteration(stage, energy, folded(self.elements, x)))
+            self._watch(stage)
 
         return note
 
-    watch("harmonic map")
-    x = harmonic(elements, boundary)
-    if not len(free):
-        return Placed(x, ())
-    vertices = FreeVertices(elements, free)
-    if _lowest(elements, x) <= VALID:
-        x = untangle(vertices, x, observe("untangle"))
-    valid = _lowest(elements, x) > 0
-    density = material(recipe, barrier=valid)
-    if valid or recipe.material == "st-venant-kirchhoff":
-        x = relax(vertices, density, x, observe(recipe.material))
-    return Placed(x, tuple(history))
+    def settled(self, x: Array, recipe: Recipe) -> Placed:
+        sound = _lowest(self.elements, x) > 0
+        if len(self.free) and (sound or recipe.material == "st-venant-kirchhoff"):
+            density = material(recipe, barrier=sound)
+            x = relax(self.vertices, density, x, self.observe(recipe.material))
+        return Placed(x, tuple(self._history))
 
 
 def harmonic(elements: Elements, boundary: Array) -> Array:

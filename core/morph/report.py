@@ -17,6 +17,16 @@ class Iteration:
 
 
 @dataclass(frozen=True)
+class Stage:
+    """One stage of the mapping."""
+
+    name: str
+    seconds: float
+    result: str
+    """What came of it, in words."""
+
+
+@dataclass(frozen=True)
 class Report:
     """Diagnostics of a solved morph."""
 
@@ -37,8 +47,10 @@ class Report:
     """Seconds by stage, in order."""
     repairs: tuple[str, ...]
     """What was changed in the outlines so that they could be used."""
-    split_chords: int
-    """Interior edges between boundary vertices that were split."""
+    stages: tuple[Stage, ...]
+    """How the map was found, and how its mesh was changed on the way."""
+    tried: int
+    """Correspondences that were compared; 1 when marks decide."""
 
     def as_dict(self) -> dict[str, Any]:
         """Return plain data, for JSON."""

@@ -35,9 +35,10 @@ REPORT = Report(
     distortion_worst=float("inf"),
     smallest_angle=0.3,
     iterations=(),
-    timings={"boundary": 0.001, "mesh": 0.0115},
+    timings={"matching": 0.001, "mesh": 0.0115},
+    stages=(),
+    tried=1,
     repairs=("Removed 2 repeated points.",),
-    split_chords=0,
 )
 
 

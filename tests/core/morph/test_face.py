@@ -19,7 +19,7 @@ def test_the_documented_attributes_have_the_documented_shapes():
     assert (report.vertices, report.triangles) == (n, m)
     assert report.folds_source == report.folds_target == ()
     assert report.distortion_worst >= report.distortion_mean >= 1
-    assert set(report.timings) == {"outlines", "boundary", "mesh", "placement", "in-between"}
+    assert set(report.timings) == {"outlines", "matching", "mesh", "placement", "in-between"}
 
 
 def test_holes_map_to_holes_with_marks_on_them():
@@ -68,7 +68,7 @@ def test_progress_rises_from_nought_and_names_the_stages():
     assert fractions == sorted(fractions)
     assert fractions[0] >= 0
     assert fractions[-1] <= 1
-    assert {"outlines", "boundary", "mesh", "in-between"} <= {stage for _, stage in seen}
+    assert {"outlines", "matching", "mesh", "in-between"} <= {stage for _, stage in seen}
 
 
 def test_progress_can_stop_the_work_at_every_point():

@@ -6,8 +6,12 @@ import pytest
 import core
 from core.fem.elements import Elements, determinants
 from core.fem.energies.fold_barrier import REACH
+from core.geometry.polyline import arc_lengths, signed_area
 from core.geometry.rotation import rotate
+from core.morph.boundary import MatchedRing, correspond
 from core.morph.guard import FoldGuard
+from core.morph.inbetween import Rigid
+from core.morph.mapping import direct_map
 from core.morph.quality import folds
 from tests.core.shapes import comb, limb
 
@@ -25,6 +29,17 @@ def solve(seed: int, method: str) -> core.Morph:
     marks = [(i, (i + seed) % 14) for i in range(14)]
     recipe = core.Recipe(method=method)
     return core.solve(ragged(seed), ragged(seed + 1000), marks, recipe=recipe)
+
+
+def poor_map() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return a map without folds, but with triangles so ill shaped that frames come close."""
+    teeth = (comb(3) - comb(3).mean(axis=0)) / np.sqrt(signed_area(comb(3)))
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    ring = MatchedRing(teeth, square, arc_lengths(teeth)[:2], arc_lengths(square)[:2], marks=(0, 1))
+    boundary = correspond(ring, (0.1, 0.05), "ab")
+    found = direct_map([boundary.source], [boundary.target], core.Recipe(), lambda stage: None)
+    assert found.sound
+    return found.mesh.points, found.target, found.mesh.triangles
 
 
 def folded_frames(morph: core.Morph) -> int:
@@ -77,21 +92,20 @@ def test_the_guarded_frame_does_not_depend_on_where_the_guard_starts(twisted):
 
 
 def test_guarded_motion_is_smooth_and_exact_at_both_ends():
-    square = np.array([[0, 0], [6, 0], [6, 3], [0, 3]], dtype=float)
-    morph = core.solve(comb(3), square, [(0, 0), (1, 1)])
-    assert morph.inbetween._margins.min() < REACH  # so the guard is at work here
-    frames = np.array([morph.at(t) for t in np.linspace(0, 1, 201)])
-    assert folded_frames(morph) == 0
+    rest, target, triangles = poor_map()
+    motion = Rigid(rest, target, triangles)
+    assert motion._margins.min() < REACH  # so the guard is at work here
+    frames = np.array([motion(t) for t in np.linspace(0, 1, 201)])
+    assert not any(len(folds(frame, triangles)) for frame in frames)
     speed = np.abs(np.diff(frames, axis=0)).max(axis=(1, 2))
     jolt = np.abs(np.diff(frames, n=2, axis=0)).max(axis=(1, 2))
     assert jolt.max() < 0.25 * speed.max()
-    assert np.array_equal(frames[0], morph.rest)
-    assert np.array_equal(frames[-1], morph.target)
+    assert np.allclose(frames[0], rest)
+    assert np.allclose(frames[-1], target)
 
 
 def test_guarded_frames_do_not_depend_on_the_order_they_are_asked_in():
-    square = np.array([[0, 0], [6, 0], [6, 3], [0, 3]], dtype=float)
-    first, second = (core.solve(comb(3), square, [(0, 0), (1, 1)]) for _ in range(2))
-    forward = [first.at(t) for t in TIMES]
-    backward = [second.at(t) for t in TIMES[::-1]][::-1]
+    first, second = Rigid(*poor_map()), Rigid(*poor_map())
+    forward = [first(t) for t in TIMES]
+    backward = [second(t) for t in TIMES[::-1]][::-1]
     assert all(np.array_equal(a, b) for a, b in zip(forward, backward, strict=True))

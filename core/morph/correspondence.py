@@ -1,0 +1,164 @@
+"""Which boundaries belong together: by the marks where there are some, by proposals elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.errors import MarkError, Where
+from core.geometry.places import tracks
+from core.geometry.polyline import arc_lengths, nearest_length, points_at, resample
+from core.geometry.validate import CleanOutline
+from core.model import Outline, RingPoint
+from core.model.outline import Array
+from core.morph.boundary import BoundaryPair, MatchedRing, correspond
+from core.morph.marks.holes import RingPair, paired_holes
+from core.morph.marks.rings import RingMatch, match_rings
+from core.morph.shift import SAMPLES, best_shift
+
+OFF_OUTLINE = 1e-3
+"""How far a repair may leave a mark from the outline, as a fraction of its size."""
+
+
+@dataclass(frozen=True)
+class PlacedMark:
+    """A mark on the cleaned rings."""
+
+    rings: tuple[int, int]
+    """On the source and on the target."""
+    lengths: tuple[float, float]
+    index: int
+
+
+def place_marks(
+    outlines: tuple[Outline, Outline],
+    ends: tuple[CleanOutline, CleanOutline],
+    marks: Sequence[tuple[RingPoint, RingPoint]],
+    labels: Sequence[str],
+) -> list[PlacedMark]:
+    """Find the marks on the cleaned rings; raises ``MarkError`` for those that are not on them."""
+    placed = []
+    partner: dict[int, int] = {0: 0}
+    for index, pair in enumerate(marks):
+        lengths = []
+        for side, outline, place, end in zip(
+            ("source", "target"), outlines, pair, ends, strict=True
+        ):
+            point = tracks(outline)[place.ring].point_at(place.at)
+            ring = end.rings[place.ring]
+            length, distance = nearest_length(ring, arc_lengths(ring), point)
+            if distance > OFF_OUTLINE * end.diagonal:
+                raise MarkError(
+                    f"Mark {labels[index]} lies on a part of the {side} that had to be cut off.",
+                    where=Where(side, point=(float(point[0]), float(point[1])), marks=(index,)),
+                    hint="Move the mark, or mend the crossing edges there.",
+                )
+            lengths.append(length)
+        rings = pair[0].ring, pair[1].ring
+        taken = rings[0] not in partner and rings[1] in partner.values()
+        if taken or partner.setdefault(*rings) != rings[1]:
+            raise MarkError(
+                f"Mark {labels[index]} joins {_ring(rings[0])} of the source to {_ring(rings[1])}"
+                " of the target, but another mark or the kind of ring says otherwise.",
+                where=Where("target", ring=rings[1], marks=(index,)),
+                hint="Move it to the matching ring.",
+            )
+        placed.append(PlacedMark(rings, (lengths[0], lengths[1]), index))
+    return placed
+
+
+def correspondences(
+    source: CleanOutline,
+    target: CleanOutline,
+    marks: Sequence[PlacedMark],
+    labels: Sequence[str],
+    density: int,
+) -> Iterator[list[BoundaryPair]]:
+    """Yield boundaries that may belong together, ring by ring, the most likely first.
+
+    With marks on the exterior they decide, and there is just one. The edges are split to the
+    exteriors' perimeters over ``density``.
+    """
+    spacing = tuple(float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
+    for matches in _matches(source, target, marks):
+        try:
+            yield [correspond(match, (spacing[0], spacing[1]), labels) for match in matches]
+        except MarkError:
+            if any(mark.rings[0] == 0 for mark in marks):
+                raise  # otherwise it was a proposal, and there are others
+
+
+def _matches(
+    source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]
+) -> Iterator[list[MatchedRing]]:
+    exterior = [mark for mark in marks if mark.rings == (0, 0)]
+    fixed = [mark.lengths for mark in exterior]
+    proposals: list[RingMatch] = []
+    if not exterior or len(source.rings) > 1:
+        found = match_rings(source.rings[0], target.rings[0], fixed)
+        proposals = [match for match in found if not match.mirrored]
+    if exterior:
+        first = proposals[0] if proposals else None
+        yield [_marked(source, target, exterior), *_holes(source, target, marks, first)]
+        return
+    for match in proposals:
+        yield [_proposed(source, target, match), *_holes(source, target, marks, match)]
+    yield [_shifted(source, target, RingPair(0, 0)), *_holes(source, target, marks, None)]
+
+
+def _holes(
+    source: CleanOutline,
+    target: CleanOutline,
+    marks: Sequence[PlacedMark],
+    exterior: RingMatch | None,
+) -> list[MatchedRing]:
+    """Match the holes, each by its marks, or else by what the exterior's match says of it."""
+    known = {mark.rings[0]: mark.rings[1] for mark in marks if mark.rings[0] > 0}
+    if exterior is not None:
+        pairs = paired_holes(source.rings, target.rings, exterior, known)
+    else:
+        free = iter(j for j in range(1, len(target.rings)) if j not in known.values())
+        pairs = [RingPair(i, known.get(i) or next(free)) for i in range(1, len(source.rings))]
+    matched = []
+    for pair in sorted(pairs, key=lambda pair: pair.source):
+        here = [mark for mark in marks if mark.rings == (pair.source, pair.target)]
+        if here:
+            matched.append(_marked(source, target, here))
+            continue
+        a, b = source.rings[pair.source], target.rings[pair.target]
+        found = [match for match in match_rings(a, b, (), pair.rotation) if not match.mirrored]
+        matched.append(
+            _with_marks(a, b, *found[0].marks()[:2]) if found else _shifted(source, target, pair)
+        )
+    return matched
+
+
+def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]) -> MatchedRing:
+    i, j = marks[0].rings
+    here, there = np.array([mark.lengths for mark in marks]).T
+    names = tuple(mark.index for mark in marks)
+    return MatchedRing(source.rings[i], target.rings[j], here, there, names)
+
+
+def _proposed(source: CleanOutline, target: CleanOutline, match: RingMatch) -> MatchedRing:
+    return _with_marks(source.rings[0], target.rings[0], *match.marks()[:2])
+
+
+def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> MatchedRing:
+    a, b = source.rings[pair.source], target.rings[pair.target]
+    start, end, _ = best_shift(a, b, pair.rotation)
+    return _with_marks(a, b, np.array([start]), np.array([end]))
+
+
+def _with_marks(a: Array, b: Array, here: Array, there: Array) -> MatchedRing:
+    """Count proposed marks from the farthest out, so that the start vertex does not matter."""
+    away = points_at(a, arc_lengths(a), here) - resample(a, SAMPLES).mean(axis=0)
+    first = int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(a), 9)))
+    here, there = np.roll(here, -first), np.roll(there, -first)
+    return MatchedRing(a, b, here, there, tuple(range(len(here))))
+
+
+def _ring(index: int) -> str:
+    return f"hole {index}" if index else "the exterior"

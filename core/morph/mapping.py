@@ -1,0 +1,122 @@
+"""A mesh of the source, and where its vertices go in the target, without a fold.
+
+The direct route triangulates the source and places the inner vertices by energy. Where that leaves
+folds, a mesh that fits both outlines from the start takes its place, cleaned up at both ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+
+from core.fem.elements import Elements
+from core.geometry.triangulation import Mesh, split_chords, triangulate
+from core.model import Recipe
+from core.model.outline import Array
+from core.morph.cleanup import improve
+from core.morph.overlay import compatible_mesh
+from core.morph.placement import place, settle
+from core.morph.quality import distortion
+from core.morph.report import Iteration, Stage
+
+TRIANGLES_PER_BOUNDARY_VERTEX = 4
+POOR = 50.0
+"""Distortion of a triangle above which a sound map is cleaned up as well."""
+
+Watch = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Map:
+    """A mesh of the source and its image, both at unit area."""
+
+    mesh: Mesh
+    target: Array
+    """(n, 2)"""
+    distortion: Array
+    """(m,) symmetric Dirichlet density of each triangle; infinite where it is folded."""
+    iterations: tuple[Iteration, ...]
+    stages: tuple[Stage, ...]
+    """What was done, in order."""
+
+    @property
+    def sound(self) -> bool:
+        """Whether it has no fold."""
+        return bool(np.isfinite(self.distortion).all())
+
+    @property
+    def mean(self) -> float:
+        """Mean distortion by area: 1 is an isometry, infinite has a fold."""
+        areas = Elements.of(self.mesh.points, self.mesh.triangles).areas
+        return float(np.average(self.distortion, weights=areas))
+
+
+def direct_map(
+    source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
+) -> Map:
+    """Map rings (k, 2) that correspond vertex by vertex, exterior first, at about unit area.
+
+    The map may have folds: some meshes cannot take the target's shape without. ``watch(stage)`` is
+    called between steps and may raise ``Cancelled``.
+    """
+    log = _Log()
+    watch("mesh")
+    # rounded, so that equal shapes get equal meshes wherever they are drawn
+    coarse = triangulate([np.round(ring, 10) for ring in source], _max_area(recipe))
+    mesh = split_chords(coarse)
+    log.note("mesh", f"{len(mesh.points) - len(coarse.points)} chords split")
+    placed = place(mesh, np.concatenate(target), recipe, watch)
+    spread = _distortion(mesh, placed.target)
+    log.note("placement", _verdict(spread))
+    return Map(mesh, placed.target, spread, placed.iterations, tuple(log.stages))
+
+
+def mended_map(
+    direct: Map, source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
+) -> Map:
+    """Return a map without folds in place of a direct one that has some, or has poor triangles."""
+    if direct.distortion.max() <= POOR:
+        return direct
+    log = _Log(direct.stages)
+    mesh, image = direct.mesh, direct.target
+    if not direct.sound:
+        watch("joint mesh")
+        mesh, image = compatible_mesh(source, target)
+        log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
+    mesh, image = improve(mesh, image, _max_area(recipe), watch)
+    settled = settle(mesh, image, recipe, watch)
+    spread = _distortion(mesh, settled.target)
+    log.note("clean-up", f"{len(mesh.triangles)} triangles, {_verdict(spread)}")
+    if spread.max() >= direct.distortion.max():
+        return replace(direct, stages=tuple(log.stages))
+    history = direct.iterations + settled.iterations
+    return Map(mesh, settled.target, spread, history, tuple(log.stages))
+
+
+def _max_area(recipe: Recipe) -> float:
+    return 1 / (TRIANGLES_PER_BOUNDARY_VERTEX * recipe.density)
+
+
+class _Log:
+    """Times the stages."""
+
+    def __init__(self, stages: Iterable[Stage] = ()) -> None:
+        self.stages = list(stages)
+        self._since = perf_counter()
+
+    def note(self, name: str, result: str) -> None:
+        now = perf_counter()
+        self.stages.append(Stage(name, now - self._since, result))
+        self._since = now
+
+
+def _distortion(mesh: Mesh, target: Array) -> Array:
+    return distortion(Elements.of(mesh.points, mesh.triangles), target)
+
+
+def _verdict(spread: Array) -> str:
+    folds = int(np.isinf(spread).sum())
+    return f"{folds} folds" if folds else f"distortion at worst {spread.max():.3g}"
