@@ -1,7 +1,8 @@
 """Joint clean-up: from any mesh that fits source and target to one that fits them well.
 
-The mesh is coarsened as far as it goes, then brought to an even size in rounds: remove, split,
-flip, smooth and relax. Every step keeps all triangles positive at both ends, and the boundary.
+An overlay is first coarsened as far as it goes. Then rounds of removing, splitting, flipping,
+smoothing and relaxing make the mesh even. Every step keeps all triangles positive at both ends, and
+the boundary as it is.
 """
 
 from __future__ import annotations
@@ -21,7 +22,6 @@ from core.morph.removal import remove
 from core.morph.smoothing import smooth
 
 COARSENINGS = 12
-ROUNDS = 5
 RELAX_STEPS = 2
 FITTINGS, FIT_STEPS = 2, 4
 POOR = 0.3
@@ -37,19 +37,43 @@ SMALLEST = 0.03
 FLAT = 1e-12
 """Where a triangle's quality is less, Newton's method would drown in rounding errors."""
 
+Watch = Callable[[str], None]
+
+
+def _unwatched(stage: str) -> None:
+    pass
+
+
+def coarsen(mesh: Mesh, target: Array, watch: Watch = _unwatched) -> tuple[Mesh, Array]:
+    """Return a mesh with few inner vertices, and target positions (n, 2) of its vertices.
+
+    Made for overlays, whose crossings crowd where the shapes differ most. ``watch(stage)`` is
+    called before every step and may raise ``Cancelled``.
+    """
+    joint = flip(JointMesh.of(mesh, target), passes=20)
+    for _ in range(COARSENINGS):
+        watch("clean-up")
+        inner = len(joint.points) - joint.boundary_size
+        everywhere = np.ones(len(joint.tail), bool)
+        joint = flip(remove(joint, everywhere, np.full(len(everywhere), POOREST)), passes=3)
+        joint = flip(smooth(joint), passes=3)
+        if len(joint.points) - joint.boundary_size > 0.98 * inner - 1:
+            break
+    return _apart(joint, mesh.rings)
+
 
 def improve(
-    mesh: Mesh, target: Array, max_area: float, watch: Callable[[str], None] = lambda stage: None
+    mesh: Mesh, target: Array, max_area: float, watch: Watch = _unwatched, *, rounds: int
 ) -> tuple[Mesh, Array]:
     """Return a better mesh of the same boundary, and target positions (n, 2) of its vertices.
 
-    Source and target have about unit area, and all triangles of ``mesh`` are positive in both.
-    Inside, triangles get about ``max_area``; near short boundary edges they are smaller.
+    Source and target have about unit area. Inside, triangles get about ``max_area``; near short
+    boundary edges they are smaller. One round does for a fair mesh, a coarse one needs five.
     ``watch(stage)`` is called before every round and may raise ``Cancelled``.
     """
     size = float(np.sqrt(max_area * 4 / np.sqrt(3)))
-    joint = _coarsened(flip(JointMesh.of(mesh, target), passes=20), watch)
-    for _ in range(ROUNDS):
+    joint = JointMesh.of(mesh, target)
+    for _ in range(rounds):
         watch("clean-up")
         joint = smooth(_refined(_thinned(joint, size), size))
         for _ in range(2):
@@ -58,20 +82,11 @@ def improve(
     for _ in range(FITTINGS):
         watch("clean-up")
         joint = flip(_fitted(joint), passes=3)
-    return Mesh(joint.end(0), joint.triangles, mesh.rings), joint.end(1)
+    return _apart(joint, mesh.rings)
 
 
-def _coarsened(mesh: JointMesh, watch: Callable[[str], None]) -> JointMesh:
-    """Take out inner vertices while many of them go."""
-    for _ in range(COARSENINGS):
-        watch("clean-up")
-        inner = len(mesh.points) - mesh.boundary_size
-        everywhere = np.ones(len(mesh.tail), bool)
-        mesh = flip(remove(mesh, everywhere, np.full(len(everywhere), POOREST)), passes=3)
-        mesh = flip(smooth(mesh), passes=3)
-        if len(mesh.points) - mesh.boundary_size > 0.98 * inner - 1:
-            break
-    return mesh
+def _apart(joint: JointMesh, rings: tuple[Indices, ...]) -> tuple[Mesh, Array]:
+    return Mesh(joint.end(0), joint.triangles, rings), joint.end(1)
 
 
 def _thinned(mesh: JointMesh, size: float) -> JointMesh:

@@ -16,7 +16,7 @@ from core.fem.elements import Elements
 from core.geometry.triangulation import Mesh, split_chords, triangulate
 from core.model import Recipe
 from core.model.outline import Array
-from core.morph.cleanup import improve
+from core.morph.cleanup import coarsen, improve
 from core.morph.overlay import compatible_mesh
 from core.morph.placement import place, settle
 from core.morph.quality import distortion
@@ -84,9 +84,9 @@ def mended_map(
     mesh, image = direct.mesh, direct.target
     if not direct.sound:
         watch("joint mesh")
-        mesh, image = compatible_mesh(source, target)
+        mesh, image = coarsen(*compatible_mesh(source, target), watch)
         log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
-    mesh, image = improve(mesh, image, _max_area(recipe), watch)
+    mesh, image = improve(mesh, image, _max_area(recipe), watch, rounds=1 if direct.sound else 5)
     settled = settle(mesh, image, recipe, watch)
     spread = _distortion(mesh, settled.target)
     log.note("clean-up", f"{len(mesh.triangles)} triangles, {_verdict(spread)}")

@@ -11,9 +11,9 @@ from shapely import Polygon
 
 from core.errors import Cancelled
 from core.geometry.polyline import resample
-from core.geometry.triangulation import Mesh, split_edges, unique_edges
+from core.geometry.triangulation import Mesh, split_edges, triangulate, unique_edges
 from core.model.outline import Array
-from core.morph.cleanup import improve
+from core.morph.cleanup import coarsen, improve
 from core.morph.flips import flip
 from core.morph.joint import JointMesh, quality
 from core.morph.overlay import compatible_mesh
@@ -29,6 +29,10 @@ AREA = 1 / 200
 def outlines(name: str) -> tuple[list[Array], list[Array]]:
     source, target = PAIRS[name]
     return [source], [target]
+
+
+def cleaned(source: list[Array], target: list[Array]) -> tuple[Mesh, Array]:
+    return improve(*coarsen(*compatible_mesh(source, target)), AREA, rounds=5)
 
 
 def joint(name: str) -> JointMesh:
@@ -51,13 +55,13 @@ def worst(mesh: JointMesh) -> float:
 
 @pytest.mark.parametrize("name", PAIRS)
 def test_the_clean_mesh_fits_both_polygons(name: str) -> None:
-    check_fits(*improve(*compatible_mesh(*outlines(name)), AREA), *outlines(name))
+    check_fits(*cleaned(*outlines(name)), *outlines(name))
 
 
 @pytest.mark.parametrize("name", HOLES)
 def test_the_clean_mesh_fits_outlines_with_holes(name: str) -> None:
     source, target = HOLES[name]
-    check_fits(*improve(*compatible_mesh(source, target), AREA), source, target)
+    check_fits(*cleaned(source, target), source, target)
 
 
 @settings(max_examples=15, deadline=None)
@@ -66,7 +70,7 @@ def test_the_clean_mesh_fits_wild_polygons_at_any_shift(
     source: Array, target: Array, shift: int
 ) -> None:
     target = np.roll(target, shift, axis=0)
-    check_fits(*improve(*compatible_mesh([source], [target]), AREA), [source], [target])
+    check_fits(*cleaned([source], [target]), [source], [target])
 
 
 @pytest.mark.sweep
@@ -78,12 +82,12 @@ def test_the_clean_mesh_fits_real_outlines_of_any_two_kinds(shared_data: Path, f
         rings = [at_unit_area(resample(outlines[n].astype(float), 150)) for n in (name, other)]
         if all(Polygon(ring).is_valid for ring in rings):
             source, target = ([ring] for ring in rings)
-            check_fits(*improve(*compatible_mesh(source, target), AREA), source, target)
+            check_fits(*cleaned(source, target), source, target)
 
 
 def test_a_polygon_and_its_copy_get_an_even_mesh_without_distortion() -> None:
     source = comb(4, 120)
-    mesh, image = improve(*compatible_mesh([source], [source]), AREA)
+    mesh, image = cleaned([source], [source])
     assert smallest_angle(mesh.points, mesh.triangles) > np.radians(20)
     assert np.abs(image - mesh.points).max() < 0.02
 
@@ -91,21 +95,44 @@ def test_a_polygon_and_its_copy_get_an_even_mesh_without_distortion() -> None:
 @pytest.mark.parametrize("name", ["spiral and disc", "comb and square", "spiral and comb"])
 def test_the_clean_mesh_has_wider_angles_than_the_overlay(name: str) -> None:
     mesh, image = compatible_mesh(*outlines(name))
-    clean, clean_image = improve(mesh, image, AREA)
+    clean, clean_image = improve(*coarsen(mesh, image), AREA, rounds=5)
     before = min(smallest_angle(points, mesh.triangles) for points in (mesh.points, image))
     after = min(smallest_angle(p, clean.triangles) for p in (clean.points, clean_image))
     assert after > max(before, 1e-3)
 
 
+def test_coarsening_keeps_the_fit_and_leaves_few_inner_vertices() -> None:
+    source, target = outlines("spiral and comb")
+    mesh, image = compatible_mesh(source, target)
+    coarse, coarse_image = coarsen(mesh, image)
+    check_fits(coarse, coarse_image, source, target)
+    b = len(source[0])
+    assert len(coarse.points) - b < 0.5 * (len(mesh.points) - b)
+
+
+def test_one_round_widens_the_angles_of_a_map_that_was_found_otherwise() -> None:
+    source = disc(60)
+    mesh = triangulate([source], AREA)
+    squeeze = np.diag([4, 0.25])
+    better, image = improve(mesh, mesh.points @ squeeze, AREA, rounds=1)
+    before = smallest_angle(mesh.points @ squeeze, mesh.triangles)
+    after = min(smallest_angle(p, better.triangles) for p in (better.points, image))
+    check_fits(better, image, [source], [source @ squeeze])
+    assert after > 1.5 * before
+
+
 def test_a_smaller_area_gives_more_triangles() -> None:
     mesh, image = compatible_mesh([disc(60)], [np.roll(disc(60), 20, axis=0)])
-    counts = [len(improve(mesh, image, area)[0].triangles) for area in (1 / 50, 1 / 200, 1 / 800)]
+    counts = [
+        len(improve(mesh, image, area, rounds=3)[0].triangles)
+        for area in (1 / 50, 1 / 200, 1 / 800)
+    ]
     assert all(few < many for few, many in pairwise(counts))
 
 
 def test_triangles_too_thin_for_floating_point_are_left_alone() -> None:
     source = needle(12, 1e-20)
-    mesh, image = improve(*compatible_mesh([source], [source]), AREA)
+    mesh, image = cleaned([source], [source])
     assert np.isfinite(mesh.points).all()
     assert np.array_equal(image[:12], source)
 
@@ -114,8 +141,11 @@ def test_the_clean_up_can_be_cancelled() -> None:
     def cancel(stage: str) -> None:
         raise Cancelled
 
+    mesh, image = compatible_mesh([disc(9)], [disc(9)])
     with pytest.raises(Cancelled):
-        improve(*compatible_mesh([disc(9)], [disc(9)]), AREA, cancel)
+        coarsen(mesh, image, cancel)
+    with pytest.raises(Cancelled):
+        improve(mesh, image, AREA, rounds=1, watch=cancel)
 
 
 @pytest.mark.parametrize("name", PAIRS)
