@@ -9,10 +9,12 @@ import numpy as np
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.marks.contour import Complex, Contour, Samples
-from core.morph.marks.misfit import position_misfits, shape_misfits
+from core.morph.marks.misfit import direction_misfits, position_misfits, turn_misfits
 
 ROTATIONS = 36
 """Rotations that are tried to lay one area on another."""
+UPRIGHT = 0.02
+"""What a half turn counts for, as a misfit."""
 AS_GOOD = 0.98
 """Shifts are as good as the best when they correlate at least so well."""
 
@@ -79,7 +81,7 @@ def shifts(source: Complex, target: Complex, most: int, rotation: complex | None
     if rotation is not None:
         return np.array([straight])
     size = np.abs(fits)
-    best = _peaks(size, most)
+    best = peaks(size, most)
     return np.append(best, straight) if size[straight] > AS_GOOD * size.max() else best
 
 
@@ -93,13 +95,18 @@ def overlays(
     """
     rotations = first * np.exp(2j * np.pi * np.arange(ROTATIONS) / ROTATIONS)[:, None]
     shrink, grow = _to_unit_area(source), _to_unit_area(target)
-    misfits = shape_misfits(here, rotations, there)
+    misfits = turn_misfits(here, there) + direction_misfits(here, rotations, there)
     misfits += position_misfits(rotations * shrink(here.points), grow(there.points))
     closeness = -misfits.min(axis=2).mean(axis=1) - misfits.min(axis=1).mean(axis=1)
     return [
         Fit(shrink.here, grow.here, rotations[k, 0] * shrink.factor / grow.factor)
-        for k in _peaks(closeness, most)
+        for k in peaks(closeness - leaning(rotations[:, 0]), most)
     ]
+
+
+def leaning(rotation: Complex) -> Array:
+    """Return what it costs to be turned: little, so that it only decides between equals."""
+    return UPRIGHT * (1 - rotation.real) / 2
 
 
 def _to_unit_area(contour: Contour) -> Fit:
@@ -107,7 +114,7 @@ def _to_unit_area(contour: Contour) -> Fit:
     return Fit(np.array(centre), np.array(0j), np.array(1 / np.sqrt(area) + 0j))
 
 
-def _peaks(values: Array, most: int) -> Indices:
+def peaks(values: Array, most: int) -> Indices:
     """Return the indices of cyclic maxima, the highest first; 0 if all values are the same."""
     peaks = np.flatnonzero((values >= np.roll(values, 1)) & (values > np.roll(values, -1)))
     peaks = peaks[np.argsort(-values[peaks], kind="stable")][:most]

@@ -17,14 +17,14 @@ from core.model.outline import Array
 
 Costs = NDArray[np.float32]
 
-FINE, STEEP = 4, (6, 9, 12)
-"""All slopes up to a step of ``FINE`` samples; a few beyond, for what only one shape has."""
-STEPS = (
-    *((a, b) for a in range(1, FINE + 1) for b in range(1, FINE + 1) if gcd(a, b) == 1),
-    *((1, b) for b in STEEP),
-    *((a, 1) for a in STEEP),
+FINE, STEEPEST = 4, 8
+"""The longest steps: of any slope, and with a one, for what only one of the shapes has."""
+STEPS = tuple(
+    (a, b)
+    for a in range(1, STEEPEST + 1)
+    for b in range(1, STEEPEST + 1)
+    if gcd(a, b) == 1 and (max(a, b) <= FINE or min(a, b) == 1)
 )
-STEEPEST = max(STEEP)
 
 
 def cheapest_paths(
@@ -34,7 +34,7 @@ def cheapest_paths(
 
     A path runs from the first row to the last; it may begin within the first ``slack`` columns and
     end within the last. ``widths`` are those of a row and a column. Returns the paths (k, 2), as
-    rows and columns, and their costs (c,); ∞ where no path is flat enough.
+    rows and columns, and their costs (c,); an empty path of cost ∞ where all would be too steep.
     """
     count, rows, columns = misfits.shape
     steps = _step_costs(misfits, widths)
@@ -47,11 +47,14 @@ def cheapest_paths(
             np.add(best[pad + row - a, :, pad - b : pad - b + columns], step[row], out=way)
         ways.min(axis=0, out=best[pad + row, :, pad:])
     ends = best[-1, :, columns + pad - slack - 1 :]
-    last = ends.argmin(axis=1)
+    last, costs = ends.argmin(axis=1), ends.min(axis=1).astype(float)
     paths = [
-        _walk_back(best[:, c], steps[:, :, c], columns - slack - 1 + last[c]) for c in range(count)
+        _walk_back(best[:, c], steps[:, :, c], columns - slack - 1 + int(last[c]))
+        if np.isfinite(costs[c])
+        else np.empty((0, 2), dtype=np.int64)
+        for c in range(count)
     ]
-    return paths, ends[np.arange(count), last].astype(float)
+    return paths, costs
 
 
 def _step_costs(misfits: Costs, widths: tuple[float, float]) -> Costs:
@@ -77,9 +80,9 @@ def _walk_back(best: Costs, steps: Costs, column: int) -> Indices:
     """Follow the steps that attained the minimum; quicker than noting them on the way there."""
     back_a, back_b = np.array(STEPS).T - STEEPEST  # ``best`` has a margin
     row = steps.shape[1] - 1
-    path = [(row, int(column))]
+    path = [(row, column)]
     while row > 0:
         way = np.argmin(best[row - back_a, column - back_b] + steps[:, row, column])
         row, column = row - STEPS[way][0], column - STEPS[way][1]
-        path.append((row, int(column)))
+        path.append((row, column))
     return np.array(path[::-1])

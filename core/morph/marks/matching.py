@@ -14,15 +14,20 @@ import numpy as np
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.marks.alignment import Fit, fit, fit_limbs, overlays, shifts
+from core.morph.marks.alignment import Fit, fit, fit_limbs, leaning, overlays, peaks, shifts
 from core.morph.marks.chain import Pair
 from core.morph.marks.contour import Complex, Contour, Samples, gap
 from core.morph.marks.elastic import cheapest_paths
 from core.morph.marks.grid import BINS, Grid, bin_width, widths
-from core.morph.marks.misfit import confidence, position_misfits, shape_misfits
+from core.morph.marks.misfit import (
+    confidence,
+    direction_misfits,
+    position_misfits,
+    turn_misfits,
+)
 
-SHIFTS, OVERLAYS = 3, 3
-"""Ways to lay the source on the target that are tried first; as many on the mirrored target."""
+SHIFTS, OVERLAYS, BENDS = 2, 3, 2
+"""Ways to begin with that are tried, of each kind; as many with the mirrored target."""
 KEPT = 3
 """How many of either are followed further."""
 SLACK = 8
@@ -31,8 +36,6 @@ REACHES = (0.6, 0.3)
 """How far a part of the contour carries others along, in radii: a round each."""
 ALIKE = 0.015
 """Correspondences that differ by less than this part of the perimeter on average are one."""
-UPRIGHT = 0.02
-"""What a half turn counts for when paths are compared: it decides between equals."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,32 +83,59 @@ def match_contours(
     """
     grid = Grid.through(fixed) if fixed else Grid.free(source, target)
     here = Samples.of(source, grid.source)
-    guesses = _guesses(grid, source, here, target, rotation)
+    sides = [_Side.of(here, target, grid.target)]
     if not fixed and rotation is None:
         reflected = target.mirrored()
-        mirror = _guesses(Grid.free(source, reflected), source, here, reflected, None)
-        guesses += [replace(guess, mirrored=True) for guess in mirror]
-    paths = _cheapest(here, guesses, 0 if fixed else SLACK)
+        sides.append(_Side.of(here, reflected, Grid.free(source, reflected).target, mirrored=True))
+    laid = [guess for side in sides for guess in _laid(source, here, side, grid.pins, rotation)]
+    paths = _cheapest(here, laid, 0 if fixed else SLACK)
+    if rotation is None:
+        bent = [guess for side in sides for guess in _bent(here, side, grid.pins)]
+        paths += _cheapest(here, bent) if fixed else _closed(here, _cheapest(here, bent, SLACK))
     for reach in REACHES:
         paths = _cheapest(here, [_followed(here, path, reach, free=not fixed) for path in paths])
     return [_match(here, path) for path in paths]
 
 
-# -- from guess to path, and from path to guess ----------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class _Side:
+    """The target, plain or mirrored."""
+
+    contour: Contour
+    samples: Samples
+    mirrored: bool
+    turns: Array
+    """(n, m) misfits of the turns with those of the source."""
+
+    @classmethod
+    def of(cls, here: Samples, contour: Contour, at: Array, mirrored: bool = False) -> _Side:
+        """Sample a target to be matched with the samples of a source."""
+        there = Samples.of(contour, at)
+        return cls(contour, there, mirrored, turn_misfits(here, there))
 
 
 @dataclass(frozen=True, eq=False)
 class _Guess:
-    """Where the source is expected on the target."""
+    """What is expected to belong together."""
 
-    there: Samples
+    side: _Side
     pins: Indices
-    """(k, 2) samples that belong together."""
-    points: Complex
-    """(n,) where the samples of the source are expected."""
-    rotation: Complex
-    """(n,) how they are turned."""
-    mirrored: bool = False
+    """(k, 2) samples that do for sure."""
+    shape: Array
+    """(n, m) misfits of the shape, between all samples."""
+    misfits: Array
+    """(n, m) of shape and position."""
+    leaning: float
+    """What it costs to be turned."""
+
+    @classmethod
+    def of(
+        cls, here: Samples, side: _Side, pins: Indices, points: Complex, rotation: Complex
+    ) -> _Guess:
+        """Expect samples (n,) of the source at ``points`` (n,), turned by ``rotation`` (n,)."""
+        shape = side.turns + direction_misfits(here, rotation, side.samples)
+        misfits = shape + position_misfits(points, side.samples.points)
+        return cls(side, pins, shape, misfits, float(leaning(rotation).mean()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,10 +143,6 @@ class _Path:
     """What came of a guess."""
 
     guess: _Guess
-    shape: Array
-    """(n, m) misfits of the shape, between all samples."""
-    misfits: Array
-    """(n, m) of shape and position."""
     knots: Indices
     """(k, 2) samples that belong together, counted on past the end of a ring."""
     cost: float
@@ -124,59 +150,73 @@ class _Path:
     @property
     def columns(self) -> Array:
         """(n,) where the samples of the source belong, between samples of the target."""
-        n = len(self.misfits)
-        rows = self.knots[0, 0] + np.arange(n)
-        return np.roll(np.interp(rows, *self.knots.T), self.knots[0, 0])
+        first, n = self.knots[0, 0], len(self.guess.misfits)
+        return np.roll(np.interp(first + np.arange(n), *self.knots.T), first)
+
+    @property
+    def confidence(self) -> Array:
+        """(n,) how sure it is that the samples of the source belong there."""
+        return confidence(self.guess.misfits, self.guess.shape, self.columns)
 
 
-def _guesses(
-    grid: Grid, source: Contour, here: Samples, target: Contour, rotation: complex | None
+# -- where to begin --------------------------------------------------------------------------------
+
+
+def _laid(
+    source: Contour, here: Samples, side: _Side, pins: Indices, rotation: complex | None
 ) -> list[_Guess]:
-    """Lay the source on the target in the ways that fit best as a whole."""
-    there = Samples.of(target, grid.target)
-    if len(grid.pins):  # as if the length along the ring told the rest
-        ends = np.vstack([grid.pins, [[len(here.at), len(there.at)]]])
-        columns = np.interp(np.arange(len(here.at)), *ends.T)
-        ways = [fit(here.points, there.between(columns), widths(here.at))]
-        pins = [grid.pins]
+    """Lay the source on the target as a whole, in the ways that fit best."""
+    there, n = side.samples, len(here.at)
+    if len(pins):  # as if the length along the ring told the rest
+        ends = np.vstack([pins, [[n, len(there.at)]]])
+        columns = np.interp(np.arange(n), *ends.T)
+        ways = [(pins, fit(here.points, there.between(columns), widths(here.at)))]
     else:
-        steps = shifts(here.points, there.points, SHIFTS, rotation)
-        ways = [fit(here.points, np.roll(there.points, -k), np.ones(BINS)) for k in steps]
-        pins = [np.array([[0, k]]) for k in steps]
+        ways = [
+            (np.array([[0, k]]), fit(here.points, np.roll(there.points, -k), np.ones(n)))
+            for k in shifts(here.points, there.points, SHIFTS, rotation)
+        ]
     if rotation is None:
         coarse = here.every(2), there.every(2)
-        for way in overlays(source, target, *coarse, ways[0].rotation, OVERLAYS):
-            ways.append(way)
-            pins.append(grid.pins if len(grid.pins) else _best_cell(way, *coarse) * 2)
-    n = len(here.at)
+        first = ways[0][1].rotation
+        for way in overlays(source, side.contour, *coarse, first, OVERLAYS):
+            ways.append((pins if len(pins) else 2 * _best_cell(way, *coarse), way))
     return [
-        _Guess(there, own, way(here.points), np.full(n, way.rotation))
-        for own, way in zip(pins, ways, strict=True)
+        _Guess.of(here, side, own, way(here.points), np.full(n, way.rotation)) for own, way in ways
     ]
 
 
 def _best_cell(way: Fit, here: Samples, there: Samples) -> Indices:
     """Return (1, 2) the samples where two contours, one laid on the other, run together best."""
-    misfits = shape_misfits(here, way.rotation[None], there)
+    misfits = turn_misfits(here, there) + direction_misfits(here, way.rotation, there)
     misfits += position_misfits(way(here.points), there.points)
     together = sum(np.roll(misfits, (k, k), axis=(0, 1)) for k in (-2, -1, 0, 1, 2))
     return np.array([np.unravel_index(np.argmin(together), misfits.shape)])
 
 
+def _bent(here: Samples, side: _Side, pins: Indices) -> list[_Guess]:
+    """Go by the turns alone: those of a limb stay when it bends."""
+    starts = [pins]
+    if not len(pins):
+        i = np.arange(BINS)[:, None]
+        along = side.turns[i, (i + i.T) % BINS].sum(axis=0)
+        starts = [np.array([[0, k]]) for k in peaks(-along, BENDS)]
+    return [_Guess(side, own, side.turns, side.turns, 0.0) for own in starts]
+
+
+# -- from guess to path, and from path to guess ----------------------------------------------------
+
+
 def _cheapest(here: Samples, guesses: Sequence[_Guess], slack: int = 0) -> list[_Path]:
     """Find the cheapest path of each guess; of those that are alike the cheapest stays."""
-    shapes = [shape_misfits(here, guess.rotation, guess.there) for guess in guesses]
-    misfits = [
-        shape + position_misfits(guess.points, guess.there.points)
-        for shape, guess in zip(shapes, guesses, strict=True)
-    ]
-    knots, costs = _paths(here, guesses, misfits, slack)
+    knots, costs = _paths(here, guesses, slack)
     found: list[_Path] = []
-    turned = [(1 - guess.rotation.real.mean()) / 2 for guess in guesses]
-    for k in np.argsort(costs + UPRIGHT * np.array(turned), kind="stable"):
-        path = _Path(guesses[k], shapes[k], misfits[k], knots[k], float(costs[k]))
-        rivals = [other for other in found if other.guess.mirrored == path.guess.mirrored]
-        if path.guess.mirrored and len(rivals) < len(found):
+    leanings = np.array([guess.leaning for guess in guesses])
+    for k in np.argsort(costs + leanings, kind="stable"):
+        path = _Path(guesses[k], knots[k], float(costs[k]))
+        mirrored = path.guess.side.mirrored
+        rivals = [other for other in found if other.guess.side.mirrored == mirrored]
+        if mirrored and len(rivals) < len(found):
             continue  # a mirror is worth nothing unless it is better than all that is not
         if len(rivals) < KEPT and all(_apart(path, other) > ALIKE for other in rivals):
             found.append(path)
@@ -184,15 +224,14 @@ def _cheapest(here: Samples, guesses: Sequence[_Guess], slack: int = 0) -> list[
 
 
 def _apart(path: _Path, other: _Path) -> float:
-    m = path.misfits.shape[1]
+    m = path.guess.misfits.shape[1]
     return float(np.mean(np.abs(gap(path.columns / m, other.columns / m))))
 
 
-def _paths(
-    here: Samples, guesses: Sequence[_Guess], misfits: Sequence[Array], slack: int
-) -> tuple[list[Indices], Array]:
+def _paths(here: Samples, guesses: Sequence[_Guess], slack: int) -> tuple[list[Indices], Array]:
     """Run from pin to pin, for all guesses at once; return their knots (k, 2) and costs."""
-    n, m = misfits[0].shape
+    n, m = guesses[0].misfits.shape
+    there = guesses[0].side.samples
     pins = np.stack([guess.pins for guess in guesses])
     ends = np.concatenate([pins[:, 1:], pins[:, :1] + [n, m]], axis=1)
     knots: list[list[Indices]] = [[] for _ in guesses]
@@ -201,10 +240,10 @@ def _paths(
         rows, columns = end[0] - begin[0]  # the same for every guess
         down, along = np.arange(rows + 1), np.arange(-slack, columns + slack + 1)
         tables = [
-            table[np.ix_((i + down) % n, (j + along) % m)]
-            for table, (i, j) in zip(misfits, begin, strict=True)
+            guess.misfits[np.ix_((i + down) % n, (j + along) % m)]
+            for guess, (i, j) in zip(guesses, begin, strict=True)
         ]
-        size = bin_width(here.at, begin[0, 0]), bin_width(guesses[0].there.at, begin[0, 1])
+        size = bin_width(here.at, begin[0, 0]), bin_width(there.at, begin[0, 1])
         paths, piece = cheapest_paths(np.array(tables, dtype=np.float32), size, 2 * slack)
         costs += piece / BINS
         for own, path, start in zip(knots, paths, begin, strict=True):
@@ -214,27 +253,34 @@ def _paths(
 
 def _followed(here: Samples, path: _Path, reach: float, free: bool) -> _Guess:
     """Expect every part of the source where the path has led the parts around it."""
-    matched = path.guess.there.between(path.columns)
+    side = path.guess.side
+    matched = side.samples.between(path.columns)
     limbs = fit_limbs(here.points, here.points, matched, widths(here.at), reach)
     pins = _best_pin(path) if free else path.guess.pins
-    return replace(path.guess, pins=pins, points=limbs(here.points), rotation=limbs.rotation)
+    return _Guess.of(here, side, pins, limbs(here.points), limbs.rotation)
+
+
+def _closed(here: Samples, paths: Sequence[_Path]) -> list[_Path]:
+    """Trace paths anew whose ends did not have to meet."""
+    return _cheapest(here, [replace(path.guess, pins=_best_pin(path)) for path in paths])
 
 
 def _best_pin(path: _Path) -> Indices:
-    """Choose where to open the ring next: where it fits best, far from where it was open."""
-    n, m = path.misfits.shape
-    middle = path.knots[len(path.knots) // 3 : -(len(path.knots) // 3)] % [n, m]
-    return middle[[np.argmin(path.misfits[middle[:, 0], middle[:, 1]])]]
+    """Choose where to open the ring next: where the match is surest, far from where it was open."""
+    n, m = path.guess.misfits.shape
+    third = len(path.knots) // 3
+    middle = path.knots[third:-third] % [n, m]
+    return middle[[np.argmax(path.confidence[middle[:, 0]])]]
 
 
 def _match(here: Samples, path: _Path) -> Match:
-    there, knots = path.guess.there, path.knots
-    source, target = here.at[knots[:, 0] % len(here.at)], there.at[knots[:, 1] % len(there.at)]
+    guess, (rows, columns) = path.guess, path.knots.T
+    there = guess.side.samples
     return Match(
-        np.unwrap(source, period=1.0),
-        np.unwrap(target, period=1.0),
+        np.unwrap(here.at[rows % len(here.at)], period=1.0),
+        np.unwrap(there.at[columns % len(there.at)], period=1.0),
         path.cost,
         here.at,
-        confidence(path.misfits, path.shape, path.columns),
-        path.guess.mirrored,
+        path.confidence,
+        guess.side.mirrored,
     )

@@ -27,16 +27,19 @@ def position_misfits(expected: Complex, there: Complex) -> Array:
     return POSITION * _levelled(np.abs(expected[..., None] - there) ** 2, FAR)
 
 
-def shape_misfits(here: Samples, rotation: Complex, there: Samples) -> Array:
-    """Return (..., n, m) misfits of turns, and of directions turned by ``rotation`` (..., n).
+def turn_misfits(here: Samples, there: Samples) -> Array:
+    """Return (n, m) misfits of turns, whatever the rotation.
 
     Great differences are levelled off: a slit that only one shape has must not outweigh the rest.
     """
+    squares = (here.turns[:, :, None] - there.turns[:, None]) ** 2
+    return TURN * _levelled(squares, SHARP).sum(axis=0)
+
+
+def direction_misfits(here: Samples, rotation: Complex, there: Samples) -> Array:
+    """Return (..., n, m) misfits of directions, the source's turned by ``rotation`` (..., n)."""
     turned = (here.directions * rotation)[..., None]
-    misfits = DIRECTION * (1 - (turned * np.conj(there.directions)).real)
-    for a, b in zip(here.turns, there.turns, strict=True):
-        misfits += TURN * _levelled((a[:, None] - b) ** 2, SHARP)
-    return misfits
+    return DIRECTION * (1 - (turned * np.conj(there.directions)).real)
 
 
 def confidence(misfits: Array, shape: Array, columns: Array) -> Array:
