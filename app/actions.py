@@ -106,7 +106,7 @@ def _undoable(d: Desk) -> bool:
 
 def _tool(name: str, text: str, *keys: str) -> Entry:
     def is_on(d: Desk) -> bool:
-        return d.window.tool == name
+        return d.canvas.tool == name
 
     return Entry(
         f"tool-{name}", text, lambda d: d.canvas.set_tool(name), keys, name, on=is_on, group="tool"
@@ -184,7 +184,7 @@ def _draw_key(d: Desk) -> None:
     """Take a drawing tool where what is drawn becomes the key under the playhead."""
     d.playhead.stop()
     d.view.update(layout="overlay")
-    if d.window.tool not in ("pen", "freehand"):
+    if d.canvas.tool not in ("pen", "freehand"):
         d.canvas.set_tool("pen")
 
 
@@ -288,8 +288,8 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("cancel", "&Cancel solving", lambda d: d.solver.cancel(), when=lambda d: d.solver.busy),
     Entry("solve", "Solve a&gain", lambda d: d.solver.resume(), ("F9",), when=_span),
 
-    Entry("welcome", "&Welcome", lambda d: d.window.toggle_welcome(),
-          on=lambda d: d.window.welcoming),
+    Entry("welcome", "&Welcome", lambda d: d.window.beginning.toggle_welcome(),
+          on=lambda d: d.window.beginning.welcoming),
     Entry("shortcuts", "&Keyboard shortcuts", lambda d: d.window.show_shortcuts(),
           ("Ctrl+/", "?")),
     Entry("about", "&About Betwixt", lambda d: d.window.show_about()),

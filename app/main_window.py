@@ -5,19 +5,19 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, QTimer, QUrl
+from PySide6.QtCore import Qt, QTimer, QUrl
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QMainWindow, QToolBar, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QWidget
 
 import resources
 from app.actions import Desk
+from app.beginning import Beginning
 from app.canvas.canvas import Canvas
 from app.commands import Commands
 from app.document.autosave import Autosave
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
-from app.files import dialogs
 from app.files.files import Files
 from app.files.recent_menu import RecentMenu
 from app.help import show_about, show_shortcuts
@@ -34,13 +34,8 @@ from app.reporting import Reporter
 from app.settings import Settings
 from app.style import Theme, apply_theme
 from app.timeline.timeline import Timeline
+from app.window_layout import WindowLayout
 from app.workspace import ViewOptions, Workspace
-from core.errors import MorphError
-
-FIRST_SIZE = QSize(1360, 860)
-SIDE_WIDTH = 288
-TIMELINE_HEIGHT = 214
-ICON = QSize(20, 20)
 
 
 class MainWindow(QMainWindow):
@@ -51,18 +46,14 @@ class MainWindow(QMainWindow):
         self.settings = settings
         self.workspace = _new_workspace(self)
         settings.load_view(self.workspace.view)
-        self._autosave = Autosave(self.workspace.session, recovery, self)
+        self.autosave = Autosave(self.workspace.session, recovery, self)
         self._manners = KeyManners(self)
         self._make_parts()
-        self._make_docks()
+        self._arrange()
         self._make_actions()
         self._wire()
         self.setAcceptDrops(True)
-        self.resize(FIRST_SIZE.boundedTo(self.screen().availableSize()))
-        self._first_layout = self.saveState()
-        self._aside: list[QDockWidget] = []
-        """Panels that the welcome panel stands in for."""
-        self._restore_layout()
+        self.panels.restore(settings)
         self._show_title()
 
     # -- what it is made of --------------------------------------------------------------------
@@ -73,13 +64,13 @@ class MainWindow(QMainWindow):
         self.layers = LayersPanel(self.workspace)
         self.properties = PropertiesPanel(self.workspace)
         self.welcome = WelcomePanel(resources.samples(), self.settings)
-        self.welcome.hide()
         self.status = StatusStrip(self.workspace)
-        self.setStatusBar(self.status)
         self.messages = MessageBar(self.canvas)
         self.files = Files(self.workspace, self.settings, self)
         self.commands = Commands(self.workspace, self)
         self.reporter = Reporter(self.workspace, self.canvas, self.files, self.messages)
+
+    def _arrange(self) -> None:
         centre = QWidget()
         row = QHBoxLayout(centre)
         row.setContentsMargins(0, 0, 0, 0)
@@ -87,61 +78,28 @@ class MainWindow(QMainWindow):
         row.addWidget(self.canvas, 1)
         row.addWidget(self.welcome)
         self.setCentralWidget(centre)
-
-    def _make_docks(self) -> None:
-        area = Qt.DockWidgetArea
-        self.setCorner(Qt.Corner.BottomRightCorner, area.BottomDockWidgetArea)
-        self.setCorner(Qt.Corner.BottomLeftCorner, area.BottomDockWidgetArea)
-        self._docks = {
-            name: self._add_dock(name, title, widget, where)
-            for name, title, widget, where in (
-                ("layers", self.tr("Layers"), self.layers, area.RightDockWidgetArea),
-                ("properties", self.tr("Properties"), self.properties, area.RightDockWidgetArea),
-                ("timeline", self.tr("Timeline"), self.timeline, area.BottomDockWidgetArea),
-            )
-        }
-        self._docks["timeline"].setTitleBarWidget(QWidget())  # its transport is title enough
-
-    def _add_dock(
-        self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea
-    ) -> QDockWidget:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(name)
-        dock.setWidget(widget)
-        self.addDockWidget(area, dock)
-        return dock
+        self.setStatusBar(self.status)
+        self.panels = WindowLayout(self)
+        self.panels.add_side_panel("layers", self.tr("Layers"), self.layers)
+        self.panels.add_side_panel("properties", self.tr("Properties"), self.properties)
+        self.panels.add_timeline(self.tr("Timeline"), self.timeline)
+        self.beginning = Beginning(
+            self.workspace, self.canvas, self.files, self.welcome, self.panels, self
+        )
 
     def _make_actions(self) -> None:
         w = self.workspace
-        desk = Desk(
-            w.session,
-            w.selection,
-            w.playhead,
-            w.solver,
-            w.view,
-            self.canvas,
-            self.commands,
-            self.files,
-            self,
-        )
-        self.actions_ = Actions(desk)
+        parts = (w.session, w.selection, w.playhead, w.solver, w.view)
+        self.actions_ = Actions(Desk(*parts, self.canvas, self.commands, self.files, self))
         self.actions_.fill_menu_bar(self.menuBar())
         recent = RecentMenu(self.actions_.menus[RECENT], self.settings)
         recent.chosen.connect(self.files.open_path)
-        tools = self._add_bar("tools", self.tr("Tools"), Qt.ToolBarArea.LeftToolBarArea)
+        tools = self.panels.add_bar("tools", self.tr("Tools"), Qt.ToolBarArea.LeftToolBarArea)
         self.actions_.fill_tool_bar(tools, TOOLS)
-        main = self._add_bar("main", self.tr("Main"), Qt.ToolBarArea.TopToolBarArea)
+        main = self.panels.add_bar("main", self.tr("Main"), Qt.ToolBarArea.TopToolBarArea)
         self.actions_.fill_tool_bar(main, TOP_BAR)
-        for part in (tools, main, *self._docks.values()):
+        for part in self.panels.parts:
             self.actions_.menus[PANELS].addAction(part.toggleViewAction())
-
-    def _add_bar(self, name: str, title: str, area: Qt.ToolBarArea) -> QToolBar:
-        bar = QToolBar(title, self)
-        bar.setObjectName(name)
-        bar.setIconSize(ICON)
-        bar.setMovable(False)
-        self.addToolBar(area, bar)
-        return bar
 
     def _wire(self) -> None:
         w = self.workspace
@@ -155,89 +113,23 @@ class MainWindow(QMainWindow):
             w.solver.busy_changed,
             w.view.changed,
             self.canvas.tool_changed,
+            self.beginning.changed,
         ):
             signal.connect(self.actions_.refresh)
         w.session.file_changed.connect(self._show_title)
         self.canvas.hint_changed.connect(self.status.set_hint)
         self.status.set_hint(self.canvas.hint)
         self.status.cancel_asked.connect(self._cancel_solving)
-        self._autosave.failed.connect(self.reporter.show_refusal)
-        self.welcome.new_asked.connect(self._begin_new)
-        self.welcome.open_asked.connect(self._begin_open)
-        self.welcome.import_asked.connect(self._begin_import)
-        self.welcome.recent_chosen.connect(self._begin_recent)
-        self.welcome.sample_chosen.connect(self.play_sample)
-        self.welcome.closed.connect(self.toggle_welcome)
+        self.autosave.failed.connect(self.reporter.show_refusal)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop_theme)
-
-    # -- beginning -----------------------------------------------------------------------------
 
     def begin(self, path: Path | None) -> None:
         """Offer what a crash left behind, or open a file, or else a sample that is moving."""
         self.canvas.setFocus()
-        if self._offer_recovery():
-            return
-        if path is not None:
-            self.files.open_path(path)
-            return
-        if samples := resources.samples():
-            self.play_sample(samples[0])
-        if self.settings.welcome:
-            self.toggle_welcome()
-
-    def play_sample(self, path: Path) -> None:
-        """Open a copy of a sample, moving, with the layer in hand that has most to show."""
-        if self.files.open_sample(path):
-            layers = self.workspace.session.document.layers
-            if layers:
-                main = max(layers, key=lambda layer: len(layer.labels))
-                self.workspace.selection.select_layer(main.id)
-            self.workspace.playhead.play()
-
-    def _offer_recovery(self) -> bool:
-        """Ask about unsaved work of a crash, the newest first; return whether some was opened."""
-        for leftover in self._autosave.leftovers():
-            answer = dialogs.ask_recovery(self, leftover)
-            if answer == "discard":
-                self._autosave.discard(leftover)
-            elif answer == "recover":
-                try:
-                    self._autosave.recover(leftover)
-                except MorphError as error:
-                    self.reporter.show_refusal(error)
-                    continue
-                return True
-        return False
-
-    def _begin_new(self) -> None:
-        if self.files.new():
-            self._end_welcome()
-            self.canvas.set_tool("pen")
-
-    def _begin_open(self) -> None:
-        if self.files.open():
-            self._end_welcome()
-
-    def _begin_recent(self, path: Path) -> None:
-        if self.files.open_path(path):
-            self._end_welcome()
-
-    def _begin_import(self) -> None:
-        """Import into a new project, unless the one that is open is the artist's."""
-        if self.files.new():
-            self._end_welcome()
-            self.files.import_shapes()
-
-    def _end_welcome(self) -> None:
-        if self.welcoming:
-            self.toggle_welcome()
+        if not self.beginning.offer_recovery(self.autosave, self.reporter):
+            self.beginning.open_first(path, self.settings.welcome)
 
     # -- what actions ask of the window --------------------------------------------------------
-
-    @property
-    def tool(self) -> str:
-        """The name of the tool in hand."""
-        return self.canvas.tool
 
     @property
     def theme(self) -> Theme:
@@ -249,24 +141,6 @@ class MainWindow(QMainWindow):
         self.settings.theme = theme
         apply_theme(theme)
         retint()
-
-    @property
-    def welcoming(self) -> bool:
-        """Whether the welcome panel is open."""
-        return not self.welcome.isHidden()
-
-    def toggle_welcome(self) -> None:
-        """Open the welcome panel in place of the panels at the side, or put those back."""
-        self.welcome.setVisible(not self.welcoming)
-        if self.welcoming:
-            side = [self._docks["layers"], self._docks["properties"]]
-            self._aside = [d for d in side if not (d.isHidden() or d.isFloating())]
-            for dock in self._aside:
-                dock.hide()
-        else:
-            while self._aside:
-                self._aside.pop().show()
-        self.actions_.refresh()
 
     def toggle_full_screen(self) -> None:
         """Fill the screen, or go back to a window."""
@@ -281,13 +155,8 @@ class MainWindow(QMainWindow):
 
     def reset_layout(self) -> None:
         """Put every panel back where it was at first."""
-        if self.welcoming:
-            self.toggle_welcome()
-        self.restoreState(self._first_layout)
-        for dock in self._docks.values():
-            dock.setFloating(False)
-            dock.show()
-        self._size_docks()
+        self.beginning.end_welcome()
+        self.panels.reset()
 
     def show_shortcuts(self) -> None:
         """List every shortcut."""
@@ -318,19 +187,6 @@ class MainWindow(QMainWindow):
         if self.theme == "system":
             self.set_theme("system")
 
-    def _restore_layout(self) -> None:
-        if state := self.settings.window_state():
-            self.restoreGeometry(state[0])
-            self.restoreState(state[1])
-        else:
-            self._size_docks()
-
-    def _size_docks(self) -> None:
-        side = [self._docks["layers"], self._docks["properties"]]
-        self.resizeDocks(side, [SIDE_WIDTH, SIDE_WIDTH], Qt.Orientation.Horizontal)
-        self.resizeDocks(side, [200, 400], Qt.Orientation.Vertical)
-        self.resizeDocks([self._docks["timeline"]], [TIMELINE_HEIGHT], Qt.Orientation.Vertical)
-
     # -- events --------------------------------------------------------------------------------
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
@@ -349,29 +205,16 @@ class MainWindow(QMainWindow):
         if not self.files.may_leave():
             event.ignore()
             return
-        if self.welcoming:
-            self.toggle_welcome()
-        self.settings.save_window_state(self.saveGeometry(), self.saveState())
+        self.panels.save(self.settings)
         self.settings.save_view(self.workspace.view)
         QGuiApplication.styleHints().colorSchemeChanged.disconnect(self._on_desktop_theme)
         self.workspace.playhead.stop()
         self.actions_.close()
         self._manners.close()
-        self._autosave.close()
+        self.autosave.close()
         self.workspace.solver.close()
         self.workspace.session.close()
         event.accept()
-
-
-def _new_workspace(window: QMainWindow) -> Workspace:
-    session = Session(parent=window)
-    selection, playhead = Selection(session, window), Playhead(session, window)
-    solver = Solver(session, selection, playhead, parent=window)
-    return Workspace(session, selection, playhead, solver, ViewOptions(window))
-
-
-def _files(urls: list[QUrl]) -> list[Path]:
-    return [Path(url.toLocalFile()) for url in urls if url.isLocalFile()]
 
 
 def run(path: Path | None) -> int:
@@ -386,3 +229,14 @@ def run(path: Path | None) -> int:
     window.show()
     QTimer.singleShot(0, window, partial(window.begin, path))
     return int(app.exec())
+
+
+def _new_workspace(window: QMainWindow) -> Workspace:
+    session = Session(parent=window)
+    selection, playhead = Selection(session, window), Playhead(session, window)
+    solver = Solver(session, selection, playhead, parent=window)
+    return Workspace(session, selection, playhead, solver, ViewOptions(window))
+
+
+def _files(urls: list[QUrl]) -> list[Path]:
+    return [Path(url.toLocalFile()) for url in urls if url.isLocalFile()]

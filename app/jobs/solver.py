@@ -134,8 +134,11 @@ class Solver(QObject):
         self._refresh()
 
     def resume(self) -> None:
-        """Solve what is not solved, after ``cancel``."""
+        """Solve what is not solved, after ``cancel``; try again what failed."""
         self._held = False
+        for span in self._spans.values():
+            if isinstance(self._outcomes.get(span), MorphError):
+                del self._outcomes[span]
         self._advance()
 
     def close(self) -> None:

@@ -251,6 +251,18 @@ def test_cancel_stops_until_the_next_edit_or_until_asked(
     qtbot.waitUntil(solved(workspace))
 
 
+def test_what_failed_can_be_tried_again(workspace: Workspace, bench: Bench, qtbot: QtBot) -> None:
+    bench.gate.clear()
+    nudge(workspace)
+    bench.broken.add(span(workspace))
+    bench.gate.set()
+    qtbot.waitUntil(lambda: workspace.solver.state(1, 0) is SpanState.FAILED)
+    bench.broken.clear()
+    workspace.solver.resume()
+    qtbot.waitUntil(solved(workspace))
+    assert not workspace.solver.errors
+
+
 def test_progress_names_the_stage(workspace: Workspace, bench: Bench, qtbot: QtBot) -> None:
     bench.gate.clear()
     with qtbot.waitSignal(

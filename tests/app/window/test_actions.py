@@ -153,7 +153,7 @@ def test_space_plays_with_the_focus_on_the_canvas_or_elsewhere(window: MainWindo
 
 
 def test_space_presses_a_button_that_has_the_focus(window: MainWindow) -> None:
-    window.toggle_welcome()
+    window.beginning.toggle_welcome()
     box = window.welcome.at_start
     box.setFocus(Qt.FocusReason.TabFocusReason)
     press(window, "Space")
@@ -257,7 +257,7 @@ def test_draw_keyframe_here_makes_what_is_drawn_a_key_under_the_playhead(
 
 
 def test_every_control_has_a_name_and_is_large_enough_to_hit(window: MainWindow) -> None:
-    window.toggle_welcome()
+    window.beginning.toggle_welcome()
     QApplication.processEvents()
     for part in (window.welcome, window.status, window.messages):
         for button in part.findChildren(QAbstractButton):

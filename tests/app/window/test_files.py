@@ -191,7 +191,7 @@ def test_work_that_is_not_recovered_is_deleted_or_offered_again(
         window = open_window()
         window.begin(None)
         window.close()
-        window._autosave.deleteLater()
+        window.autosave.deleteLater()
     assert artist.asked.count("recovery") == offers
 
 

@@ -53,7 +53,7 @@ def brightness(window: MainWindow) -> float:
 def test_the_theme_changes_everything_at_once_and_is_remembered(window: MainWindow) -> None:
     assert brightness(window) < 0.3
     window.messages.show_info("A message is on show meanwhile.")
-    window.toggle_welcome()
+    window.beginning.toggle_welcome()
     window.actions_["theme-light"].trigger()
     assert brightness(window) > 0.8
     assert colours() is LIGHT
@@ -126,12 +126,12 @@ def test_the_welcome_panel_can_be_told_to_stay_away(
 def test_panels_stay_where_they_were_put_until_the_layout_is_reset(
     window: MainWindow, open_window: Callable[[], MainWindow], artist: Artist
 ) -> None:
-    window._docks["layers"].hide()
-    window.addDockWidget(Qt.DockWidgetArea.LeftDockWidgetArea, window._docks["properties"])
-    window.toggle_welcome()
+    window.panels.docks["layers"].hide()
+    window.addDockWidget(Qt.DockWidgetArea.LeftDockWidgetArea, window.panels.docks["properties"])
+    window.beginning.toggle_welcome()
     window.close()
     again = open_window()
-    docks = again._docks
+    docks = again.panels.docks
     assert not docks["layers"].isVisible()
     assert again.dockWidgetArea(docks["properties"]) == Qt.DockWidgetArea.LeftDockWidgetArea
     again.actions_["reset-layout"].trigger()
