@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
+import shutil
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -52,10 +53,26 @@ def _headless_advice(path: Path | None) -> str:
     from core.io.project import EXTENSION
     from resources import samples
 
-    project = path if path and path.suffix == EXTENSION else next(iter(samples()), "FILE")
+    project = path if path and path.suffix == EXTENSION else samples()[0]
     return (
         "There is no display to open the editor on"
         " (neither DISPLAY nor WAYLAND_DISPLAY is set).\n"
         "Frames can be made without one:\n"
-        f"  betwixt render {shlex.quote(str(project))} -o frames"
+        f"  {_program()} render {_quoted(project)} -o frames"
     )
+
+
+def _program() -> str:
+    """Return what to type to run this program again from where it was started."""
+    started = Path(sys.argv[0])
+    if shutil.which("betwixt") or started.name != "betwixt":
+        return "betwixt"
+    return _quoted(started)
+
+
+def _quoted(path: Path | str) -> str:
+    """Return a path for the shell, from the working directory where it is inside."""
+    inside = Path(path).absolute()
+    if inside.is_relative_to(Path.cwd()):
+        inside = inside.relative_to(Path.cwd())
+    return shlex.quote(str(inside))
