@@ -27,6 +27,8 @@ class Panel:
     triangles: np.ndarray | None = None
     folded: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
     dots: np.ndarray = field(default_factory=lambda: np.zeros((0, 2)))
+    rainbow: bool = False
+    """Whether hues run along the rings, so that panels show which places correspond."""
 
 
 def draw_row(panels: Sequence[Panel], side: int = 220, *, same_scale: bool = True) -> QImage:
@@ -91,11 +93,18 @@ def _draw(painter: QPainter, panel: Panel, scale: float) -> None:
         for corners in points[panel.triangles[panel.folded]]:
             painter.drawPolygon([QPointF(*corner) for corner in corners])
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.setPen(QPen(QColor(INK), 1.2))
     for ring in panel.rings:
-        closed = points[np.append(ring, ring[0])]
-        painter.drawLines([QLineF(QPointF(*a), QPointF(*b)) for a, b in itertools.pairwise(closed)])
+        _draw_ring(painter, points[ring], rainbow=panel.rainbow)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(FOLD))
     for dot in scale * (panel.dots - centre) if len(panel.dots) else ():
         painter.drawEllipse(QPointF(*dot), 3, 3)
+
+
+def _draw_ring(painter: QPainter, ring: np.ndarray, *, rainbow: bool) -> None:
+    corners = [QPointF(*point) for point in ring]
+    painter.setPen(QPen(QColor(INK), 1.2))
+    for k, edge in enumerate(itertools.pairwise([*corners, corners[0]])):
+        if rainbow:
+            painter.setPen(QPen(QColor.fromHsvF(k / len(corners), 1, 0.85), 3))
+        painter.drawLine(QLineF(*edge))
