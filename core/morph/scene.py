@@ -66,15 +66,11 @@ def layer_rings(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[Array, .
     Between keys it is the in-between at the eased time; a key, and a span that has no solution
     yet, shows the keyframe's own outline.
     """
-    index, t = layer.span_at(frame)
-    s = layer.keyframes[index].easing(t)
-    if s not in (0.0, 1.0):  # an easing may also overshoot
-        morph = morph_of(span_of(layer, index))
-        if morph is not None:
-            positions = morph.at(s)
-            return tuple(positions[ring] for ring in morph.rings)
-    key = layer.keyframes[index + (s >= 0.5 and layer.spans > 0)]
-    return tuple(polyline.points for polyline in flatten(key.outline))
+    index, s, morph = _shown(layer, frame, morph_of)
+    if morph is not None:
+        positions = morph.at(s)
+        return tuple(positions[ring] for ring in morph.rings)
+    return tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
 
 
 def picture_at(document: Document, frame: float, morph_of: MorphOf) -> Picture:
@@ -93,11 +89,9 @@ def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> Keyframe:
     The in-between becomes an outline of straight segments, with every mark at its place on it.
     Outside the layer's keys, and in a span without a solution, the nearest key is repeated.
     """
-    index, t = layer.span_at(frame)
-    s = layer.keyframes[index].easing(t)
-    morph = morph_of(span_of(layer, index)) if 0 < s < 1 else None
+    index, s, morph = _shown(layer, frame, morph_of)
     if morph is None:
-        return replace(layer.keyframes[index + (s >= 0.5 and layer.spans > 0)], frame=frame)
+        return replace(_nearest_key(layer, index, s), frame=frame)
     source, positions = layer.keyframes[index], morph.at(s)
     rest = Outline.polygon(*(morph.rest[ring] for ring in morph.rings))
     marks = tuple(
@@ -105,3 +99,16 @@ def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> Keyframe:
     )  # same vertices, so a place at rest is the place in the in-between
     outline = Outline.polygon(*(positions[ring] for ring in morph.rings))
     return Keyframe(frame, outline, marks, source.easing)
+
+
+def _shown(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[int, float, Morph | None]:
+    """Return the span at a frame, s in it, and its solution; None where a key itself shows."""
+    index, t = layer.span_at(frame)
+    s = layer.keyframes[index].easing(t)
+    between = s not in (0.0, 1.0)  # an easing may also overshoot
+    return index, s, morph_of(span_of(layer, index)) if between else None
+
+
+def _nearest_key(layer: Layer, index: int, s: float) -> Keyframe:
+    """Return the keyframe that stands for s in a span without a solution."""
+    return layer.keyframes[index + (s >= 0.5 and layer.spans > 0)]

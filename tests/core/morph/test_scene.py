@@ -1,0 +1,58 @@
+"""What shows at a frame, and what of it becomes a key."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint
+from core.model.easing import HOLD, LINEAR
+from core.model.edits import insert_keyframe
+from core.morph.morph import Morph
+from core.morph.scene import Span, keyframe_at, layer_rings, solve_span
+from tests.core.shapes import letter_l, rotation
+
+SOURCE = Outline.polygon(letter_l())
+TARGET = SOURCE.transformed(rotation(1.0), [4, 2])
+MARKS = (RingPoint(0, 1.0), RingPoint(0, 4.5))
+SPAN = Span(SOURCE, TARGET, tuple(zip(MARKS, MARKS, strict=True)), ("a", "b"), Recipe())
+
+
+@pytest.fixture(scope="module")
+def morph() -> Morph:
+    return solve_span(SPAN)
+
+
+def layer(easing: Easing = LINEAR) -> Layer:
+    keys = Keyframe(1, SOURCE, MARKS, easing), Keyframe(11, TARGET, MARKS)
+    return Layer(1, "L", keys, ("a", "b"))
+
+
+def unsolved(span: Span) -> None:
+    return None
+
+
+@pytest.mark.parametrize("easing", [LINEAR, HOLD, Easing(0.3, 0, 0.5, 2.5), Easing(0.3, -2, 1, 1)])
+@pytest.mark.parametrize("frame", [-3, 1, 3, 6, 9, 11, 20])
+def test_the_key_made_at_a_frame_is_what_shows_there(easing: Easing, frame: int, morph: Morph):
+    shown = layer_rings(layer(easing), frame, lambda span: morph)
+    key = keyframe_at(layer(easing), frame, lambda span: morph)
+    assert key.frame == frame
+    for ring, points in zip(key.outline.rings, shown, strict=True):
+        assert np.array_equal(ring.points, points)
+
+
+def test_a_key_made_between_has_the_marks_where_they_travelled(morph: Morph):
+    key = keyframe_at(layer(), 6, lambda span: morph)
+    places = np.array([SOURCE.position(mark) for mark in MARKS])
+    vertices = [int(np.argmin(np.hypot(*(morph.rest - place).T))) for place in places]
+    found = np.array([key.outline.position(mark) for mark in key.marks])
+    assert np.allclose(found, morph.at(0.5)[vertices], atol=1e-9)
+    document = insert_keyframe(Document((layer(),)), 1, key)
+    assert [k.frame for k in document.layers[0].keyframes] == [1, 6, 11]
+
+
+@pytest.mark.parametrize(("frame", "key"), [(1, 0), (5, 0), (7, 1), (11, 1)])
+def test_a_span_without_a_solution_shows_the_nearest_key(frame: int, key: int):
+    [ring] = layer_rings(layer(), frame, unsolved)
+    assert np.array_equal(ring, layer().keyframes[key].outline.rings[0].points)
