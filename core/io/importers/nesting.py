@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from core.geometry.flatten import flatten
+from core.geometry.polyline import signed_area
 from core.model import Outline, Ring
 from core.model.outline import Array
 
@@ -21,12 +22,13 @@ def group_rings(rings: Sequence[Ring], rule: Rule = "evenodd") -> list[Outline]:
     """Group rings, which should not cross each other, into outlines, in the order they came in.
 
     A ring bounds the filled area if the rule gives its inside and its surroundings different
-    answers; a ring that bounds nothing is left out.
+    answers; a ring that bounds nothing is left out. Where rings cross, a hole may lie in no
+    exterior; it becomes a shape of its own.
     """
     if len(rings) == 1:
         return [Outline(tuple(rings))]
     polygons = [flatten(Outline((ring,)))[0].points for ring in rings]
-    areas = np.array([_signed_area(polygon) for polygon in polygons])
+    areas = np.array([signed_area(polygon) for polygon in polygons])
     around = _surroundings(polygons, np.abs(areas))
 
     def filled(inside: Sequence[int]) -> bool:
@@ -42,8 +44,11 @@ def group_rings(rings: Sequence[Ring], rule: Rule = "evenodd") -> list[Outline]:
         elif filled(outer) and not filled([*outer, i]):
             holes.append(i)
     for i in holes:
-        owner = min((j for j in around[i] if j in exteriors), key=lambda j: abs(areas[j]))
-        exteriors[owner].append(rings[i])
+        owners = [j for j in around[i] if j in exteriors]
+        if owners:
+            exteriors[min(owners, key=lambda j: abs(areas[j]))].append(rings[i])
+        else:
+            exteriors[i] = [rings[i]]
     return [Outline(tuple(group)) for group in exteriors.values()]
 
 
@@ -66,8 +71,3 @@ def _mostly_inside(points: Array, polygon: object) -> bool:
 
     sample = points[np.linspace(0, len(points) - 1, SAMPLES).astype(int)]
     return bool(shapely.contains_xy(polygon, sample).mean() > 0.5)
-
-
-def _signed_area(polygon: Array) -> float:
-    x, y = polygon.T
-    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2

@@ -36,6 +36,15 @@ def only_ring(parts: list[importers.Part]) -> list[list[float]]:
     return ring.points.tolist()
 
 
+def test_rings_that_cross_each_other_all_stay(tmp_path: Path) -> None:
+    """The second is mostly inside the first; the third lies inside the second, not the first."""
+    first = [[0, 0], [10, 0], [10, 10], [0, 10]]
+    second = [[9, 1], [8, 1], [7, 1], [6, 1], [6, 5], [6, 9], [7, 9], [8, 9], [14, 9], [14, 1]]
+    third = [[11, 4], [13, 4], [13, 6], [11, 6]]
+    parts = read(tmp_path, "crossing.json", json.dumps([first, second, third]))
+    assert sum(len(part.outline.rings) for part in parts) == 3
+
+
 def lines(points: list[list[float]], separator: str) -> str:
     return "\n".join(f"{x}{separator}{y}" for x, y in points)
 
