@@ -78,12 +78,19 @@ def crossings(rings: Sequence[Array]) -> int:
 
 
 def _end_error(outline: Outline, morph: Morph, s: float) -> float:
-    """Measure both ways, so that a cut corner counts as well as a vertex that strays."""
+    """Measure both ways, so that a cut corner counts as well as a vertex that strays.
+
+    All rings at once: the target's holes may have been drawn in another order than the source's.
+    """
     points = morph.at(s)
-    worst = 0.0
-    for drawn, ring in zip(flatten(outline), morph.rings, strict=True):
-        for a, b in ((drawn.points, points[ring]), (points[ring], drawn.points)):
-            distance = shapely.distance(shapely.points(a), shapely.LinearRing(b))
-            worst = max(worst, float(distance.max()))
+    drawn = [line.points for line in flatten(outline)]
+    found = [points[ring] for ring in morph.rings]
     left, top, right, bottom = outline.bounds()
-    return worst / float(np.hypot(right - left, bottom - top))
+    size = float(np.hypot(right - left, bottom - top))
+    return max(_farthest(drawn, found), _farthest(found, drawn)) / size
+
+
+def _farthest(rings: Sequence[Array], others: Sequence[Array]) -> float:
+    """Return the largest distance of a vertex of rings (k, 2) from the edges of others."""
+    edges = shapely.multilinestrings([shapely.linearrings(ring) for ring in others])
+    return float(shapely.distance(shapely.points(np.concatenate(rings)), edges).max())

@@ -45,6 +45,14 @@ def test_a_rigid_motion_is_sound() -> None:
     assert found.seconds_per_frame > 0
 
 
+def test_holes_may_be_drawn_in_any_order() -> None:
+    large, small = SQUARE / 4 + 0.5, SQUARE[::-1] / 8 + 3
+    span, morph = solved(
+        Outline.polygon(SQUARE, large, small), Outline.polygon(SQUARE, small, large)
+    )
+    assert check_span(span, morph, FRAMES).sound
+
+
 def test_a_corner_that_is_cut_off_shows_in_the_ends() -> None:
     corners = Outline.polygon(SQUARE)
     span, morph = solved(corners, Outline.polygon(SQUARE + 9))
