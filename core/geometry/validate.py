@@ -63,7 +63,8 @@ def clean(rings: Sequence[Array], side: str) -> CleanOutline:
     polygon = Polygon(distinct[0], distinct[1:])
     if not polygon.is_valid:
         polygon = _repaired(polygon, len(rings), side, repairs)
-        distinct = [_open(polygon.exterior), *map(_open, polygon.interiors)]
+        holes = _in_order([_open(hole) for hole in polygon.interiors], distinct[1:])
+        distinct = [_open(polygon.exterior), *holes]
     oriented = [
         ring if (signed_area(ring) > 0) == (i == 0) else np.roll(ring[::-1], 1, axis=0)
         for i, ring in enumerate(distinct)
@@ -134,6 +135,16 @@ def _repaired(polygon: Polygon, rings: int, side: str, repairs: list[str]) -> Po
         f" ({100 * lost:.2g} % of the area)"
     )
     return largest
+
+
+def _in_order(holes: Sequence[Array], drawn: Sequence[Array]) -> list[Array]:
+    """Return holes in the order in which they were drawn: a repair may mix them up."""
+    left, ordered = list(holes), []
+    for ring in drawn:
+        shape = make_valid(Polygon(ring))
+        shared = [Polygon(hole).intersection(shape).area for hole in left]
+        ordered.append(left.pop(int(np.argmax(shared))))
+    return ordered
 
 
 def _drawn_area(polygon: Polygon) -> float:

@@ -76,3 +76,14 @@ def test_a_hole_outside_is_refused():
     square, hole = square_ring()
     with pytest.raises(OutlineError, match="rings"):
         clean([square, hole + 10], "source")
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_repair_leaves_the_holes_in_their_order(order):
+    loop = [[0.1, 10], [-0.1, 10.3], [0.1, 10.3], [-0.1, 10]]
+    square = [[-10, -10], [10, -10], [10, 10], *loop, [-10, 10]]
+    holes = [ellipse() - np.array([5, 0]), ellipse() + np.array([5, 0])][::order]
+    result = clean([np.array(square), *holes], "source")
+    assert result.repairs
+    for ring, hole in zip(result.rings[1:], holes, strict=True):
+        assert ring.mean(axis=0) == pytest.approx(hole.mean(axis=0))
