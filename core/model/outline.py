@@ -162,7 +162,9 @@ class Outline:
         return self.rings[place.ring].position(place.at)
 
     def bounds(self) -> tuple[float, float, float, float]:
-        """(left, top, right, bottom) of the nodes."""
+        """(left, top, right, bottom) of the nodes; zeros where there are none."""
+        if not any(map(len, self.rings)):
+            return 0.0, 0.0, 0.0, 0.0
         points = np.concatenate([ring.points for ring in self.rings])
         (left, top), (right, bottom) = points.min(axis=0), points.max(axis=0)
         return float(left), float(top), float(right), float(bottom)

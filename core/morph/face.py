@@ -32,8 +32,8 @@ def solve(
     ``source`` and ``target`` are (n, 2) and (k, 2) points of closed polygons, the first not
     repeated; or sequences of such rings, the exterior first and then the holes; or an ``Outline``,
     which may have curves. Either orientation will do. ``marks`` pair vertex indices of the source
-    with those of the target; ``(ring, vertex)`` reaches holes. Without marks the best cyclic shift
-    is used. ``progress(fraction, stage)`` may raise ``Cancelled``.
+    with those of the target; ``(ring, vertex)`` reaches holes. Without marks the outlines are
+    matched by their features. ``progress(fraction, stage)`` may raise ``Cancelled``.
 
     Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint.
     """

@@ -35,6 +35,10 @@ class Morph:
     """The last s and its positions: several views ask for the same frame."""
     _lock: Lock = field(default_factory=Lock, init=False, repr=False)
 
+    def __post_init__(self) -> None:
+        self.rest.setflags(write=False)
+        self.target.setflags(write=False)
+
     def at(self, s: float) -> Array:
         """Return positions (n, 2) at progress s: the source at 0, the target at 1, both exactly.
 

@@ -50,6 +50,17 @@ def test_a_recipe_that_makes_no_sense_is_refused(recipe):
         core.solve(ellipse(), letter_l(), recipe=core.Recipe(**recipe))
 
 
+def test_frames_cannot_be_written_to():
+    morph = core.solve(ellipse(), letter_l())
+    assert not any(morph.at(s).flags.writeable for s in (0, 0.5, 1))
+
+
+@pytest.mark.parametrize("nothing", [core.Outline(()), core.Outline.polygon([]), [[], []]])
+def test_an_outline_without_points_is_refused(nothing):
+    with pytest.raises(core.OutlineError, match="target"):
+        core.solve(ellipse(), nothing)
+
+
 def test_a_mark_that_names_no_vertex_is_refused():
     with pytest.raises(core.MarkError, match="vertex 99 of ring 0 of the target"):
         core.solve(ellipse(), letter_l(), [(0, 99)])
