@@ -46,7 +46,7 @@ class PlainRigid:
         pairs = adjacent_triangles(triangles)
         self.theta = unwrap(theta, pairs, elements.areas) if len(pairs) else theta
         """(m,) rotation of each triangle, unwrapped across neighbours."""
-        after = Elements.of(target, triangles)
+        self._after = after = Elements.of(target, triangles)
         self.weights = self._weights(elements, after, F)
         """(m, 2, 2) how much each triangle's deviation counts."""
         self.fit = GradientFit(elements, self.weights)
@@ -94,14 +94,13 @@ class Rigid(PlainRigid):
         self._axes = deviator / safe
         """(m, 2, 2) symmetric, with eigenvalues 1 and −1 along the axes of stretch."""
         self._logs = np.log(mean + half), np.log(mean - half)
-        after = Elements.of(target, triangles)
-        self._guard = FoldGuard(self._elements, after, self.weights)
+        self._guard = FoldGuard(self._elements, self._after, self.weights)
         self._margins, self._anchors = self._survey(rest)
 
     def _fitted(self, t: float) -> Array:
         x = super()._fitted(t)
         k = round(np.clip(t, 0, 1) * SURVEY)
-        if self._margins[max(k - 1, 0) : k + 2].min() > WATCHED:
+        if 0 <= t <= 1 and self._margins[max(k - 1, 0) : k + 2].min() > WATCHED:
             return x
         ideal = self.ideal(t)
         if self._guard.margin(x, ideal) >= REACH:

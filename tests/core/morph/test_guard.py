@@ -53,6 +53,16 @@ def test_ragged_shapes_fold_in_the_plain_form_and_never_by_default():
     assert sum(folded_frames(solve(seed, "arap")) for seed in sound) == 0
 
 
+@pytest.mark.parametrize("s", [-0.4, -0.2, 1.2, 1.4])
+def test_a_motion_carried_on_past_its_ends_does_not_fold(s):
+    angle = 2 * np.pi * np.arange(60) / 60
+    circle = np.column_stack([np.cos(angle), np.sin(angle)])
+    flower = (1 + 0.7 * np.cos(5 * angle))[:, None] * circle
+    for ends in ((circle, flower), (flower, circle)):
+        morph = core.solve(*ends)
+        assert not len(folds(morph.at(s), morph.triangles))
+
+
 @pytest.fixture
 def twisted():
     """A bar, and ideal gradients that no fit follows without a fold."""
