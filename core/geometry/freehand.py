@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.errors import OutlineError
-from core.geometry.polyline import arc_lengths, resample, signed_area
+from core.geometry.polyline import arc_lengths, cross, resample, signed_area
 from core.model.outline import Array, Ring
 
 CORNER_ANGLE = np.radians(55)
@@ -76,9 +76,9 @@ def _without_overshoot(points: Array) -> Array:
     head, tail = points[:count], points[-count:]
     p, r = head[:-1, None], np.diff(head, axis=0)[:, None]
     q, s = tail[None, :-1], np.diff(tail, axis=0)[None]
-    turn = _cross(r, s)
+    turn = cross(r, s)
     with np.errstate(divide="ignore", invalid="ignore"):
-        u, v = _cross(q - p, s) / turn, _cross(q - p, r) / turn
+        u, v = cross(q - p, s) / turn, cross(q - p, r) / turn
     crossing = (turn != 0) & (u >= 0) & (u <= 1) & (v >= 0) & (v <= 1)
     if not crossing.any() or len(points) < 8:
         return points
@@ -102,14 +102,10 @@ def _corners(points: Array, reach: int) -> list[int]:
     """Return the indices of the corners, sharpest within ``reach`` points to either side."""
     before = points - np.roll(points, reach, axis=0)
     after = np.roll(points, -reach, axis=0) - points
-    turn = np.abs(np.arctan2(_cross(before, after), np.einsum("ij,ij->i", before, after)))
+    turn = np.abs(np.arctan2(cross(before, after), np.einsum("ij,ij->i", before, after)))
     shifts = (shift for shift in range(-2 * reach, 2 * reach + 1) if shift)
     highest = turn >= np.max([np.roll(turn, shift) for shift in shifts], axis=0)
     return np.flatnonzero(highest & (turn > CORNER_ANGLE)).tolist()
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 # -- the curves --------------------------------------------------------------------------------
@@ -209,7 +205,7 @@ def _off_line(points: Array) -> float:
     along = (points - points[0]) @ chord / length
     if along.min() < -1e-9 * length or along.max() > length * (1 + 1e-9):
         return np.inf
-    return float(np.abs(_cross(points - points[0], chord)).max() / length)
+    return float(np.abs(cross(points - points[0], chord)).max() / length)
 
 
 def _unit(vector: Array) -> Array:

@@ -56,11 +56,3 @@ def resample(points: Array, count: int, start: float = 0.0) -> Array:
     """Return (count, 2) points evenly spaced by arc length, the first at arc length ``start``."""
     lengths = arc_lengths(points)
     return points_at(points, lengths, start + np.arange(count) * (lengths[-1] / count))
-
-
-def turning_angles(points: Array) -> Array:
-    """Return (n,) exterior angles at the vertices in (-π, π]; positive where it turns left."""
-    edge = np.roll(points, -1, axis=0) - points
-    before = np.roll(edge, 1, axis=0)
-    cross = before[:, 0] * edge[:, 1] - before[:, 1] * edge[:, 0]
-    return np.arctan2(cross, np.einsum("ij,ij->i", before, edge))

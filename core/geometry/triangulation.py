@@ -17,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from shapely import Polygon
 
 from core.errors import SolveError
+from core.geometry.polyline import cross
 from core.model.outline import Array
 
 Indices = NDArray[np.int64]
@@ -203,7 +204,7 @@ def _distance(points: Points, i: Indices, j: Indices) -> Array:
 
 def _oriented(points: Array, triangles: Indices) -> Indices:
     a, b, c = (points[triangles[:, k]] for k in range(3))
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    area = cross(b - a, c - a)
     flipped = area < 0
     triangles[flipped] = triangles[flipped][:, [0, 2, 1]]
     return triangles[area != 0]

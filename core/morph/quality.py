@@ -9,6 +9,7 @@ from shapely import Polygon
 
 from core.fem.elements import Elements, determinants
 from core.fem.energies import SymmetricDirichlet
+from core.geometry.polyline import cross
 from core.geometry.rotation import signed_singular_values
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
@@ -17,8 +18,7 @@ from core.model.outline import Array
 def doubled_areas(points: Array, triangles: Indices) -> Array:
     """Return (m,) twice the signed areas of triangles (m, 3)."""
     a, b, c = (points[triangles[:, k]] for k in range(3))
-    u, v = b - a, c - a
-    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    return cross(b - a, c - a)
 
 
 def folds(points: Array, triangles: Indices) -> Indices:
@@ -38,8 +38,8 @@ def smallest_angle(points: Array, triangles: Indices) -> float:
     corners = points[triangles]
     after = np.roll(corners, -1, axis=1) - corners
     before = np.roll(corners, 1, axis=1) - corners
-    cross = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
-    return float(np.arctan2(np.abs(cross), np.einsum("maj,maj->ma", after, before)).min())
+    across, along = cross(after, before), np.einsum("maj,maj->ma", after, before)
+    return float(np.arctan2(np.abs(across), along).min())
 
 
 def crosses_itself(rings: Sequence[Array]) -> bool:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,3 @@ class Report:
     """How the map was found, and how its mesh was changed on the way."""
     tried: int
     """Correspondences that were compared; 1 when marks decide."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return plain data, for JSON."""
-        return asdict(self)

@@ -3,14 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.geometry.polyline import (
-    arc_lengths,
-    nearest_length,
-    points_at,
-    resample,
-    signed_area,
-    turning_angles,
-)
+from core.geometry.polyline import arc_lengths, nearest_length, points_at, resample, signed_area
 from tests.core.shapes import ellipse, letter_l, star_shaped
 
 
@@ -41,8 +34,3 @@ def test_the_nearest_place_to_a_point_of_the_outline_is_that_point(points, fract
 
 def test_resampling_a_round_shape_keeps_its_area():
     assert signed_area(resample(ellipse(400), 300)) == pytest.approx(2 * np.pi, rel=1e-3)
-
-
-@given(star_shaped())
-def test_a_simple_polygon_turns_once(points):
-    assert np.sum(turning_angles(points)) == pytest.approx(2 * np.pi)
