@@ -188,7 +188,7 @@ def insert_node(document: Document, layer_id: int, key: int, place: RingPoint) -
 def delete_nodes(
     document: Document, layer_id: int, key: int, ring: int, nodes: Sequence[int]
 ) -> Document:
-    """Delete nodes; a ring keeps at least three. Marks move to the nearest place that is left."""
+    """Delete nodes; a ring keeps at least three. Their marks stay between the same neighbours."""
     keyframe = _keyframe(document.layer(layer_id), key)
     old = keyframe.outline.rings[ring]
     gone = np.unique(np.asarray(nodes, dtype=int))

@@ -178,7 +178,7 @@ def _check_rings(source: CleanOutline, target: CleanOutline) -> None:
 
 
 def _timings(clock: _Clock, found: Map) -> dict[str, float]:
-    """Return seconds by stage; what the map itself did not take went into finding the marks."""
+    """Return seconds by stage; matching includes the rival correspondences that were tried."""
     outlines, mapping, inbetween = (clock.timings[s] for s in ("outlines", "mapping", "in-between"))
     stages = {stage.name: stage.seconds for stage in found.stages}
     matching = mapping - sum(stages.values())
