@@ -23,6 +23,7 @@ class TimeView(QObject):
         self._width = 600.0
         self._fitted = True
         workspace.session.replaced.connect(self.fit)
+        workspace.session.changed.connect(self._keep_fitted)
         workspace.playhead.moved.connect(self._follow)
 
     @property
@@ -42,10 +43,10 @@ class TimeView(QObject):
             self.fit()
 
     def fit(self) -> None:
-        """Show every keyframe and the playback range."""
-        first, last = self._workspace.session.document.frames
-        start, end = self._workspace.playhead.range
-        first, last = min(first, start), max(last, end)
+        """Show every keyframe, the playback range and the playhead."""
+        playhead = self._workspace.playhead
+        frames = (*self._workspace.session.document.frames, *playhead.range, playhead.frame)
+        first, last = min(frames), max(frames)
         self._set(TimeScale.fitted(first, max(last, first + SHORTEST - 1), self._width))
         self._fitted = True
 
@@ -58,6 +59,11 @@ class TimeView(QObject):
         """Shift by so many pixels to the right."""
         self._fitted = False
         self._set(self._scale.panned(dx))
+
+    def _keep_fitted(self) -> None:
+        """Find room for new keys; but a key that is dragged stays under the mouse."""
+        if self._fitted and not self._workspace.session.dragging:
+            self.fit()
 
     def _follow(self, frame: float) -> None:
         self._set(self._scale.showing(frame, self._width))

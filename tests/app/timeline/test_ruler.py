@@ -10,7 +10,9 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from app.timeline.timeline import Timeline
 from app.workspace import Workspace
-from tests.app.timeline.conftest import Mouse
+from core.model import Keyframe
+from core.model.edits import insert_keyframe
+from tests.app.timeline.conftest import SQUARE, Mouse
 
 LOW = 35.0
 """Below the strip of the playback range."""
@@ -181,6 +183,20 @@ def test_resizing_fits_time_into_the_new_width_until_the_artist_zooms(timeline: 
     wheel(timeline.ruler, 300.0, 120)
     zoomed = timeline.view.scale
     timeline.resize(1100, 200)
+    assert timeline.view.scale == zoomed
+
+
+def test_a_new_key_beyond_the_end_is_in_view_until_the_artist_zooms(
+    timeline: Timeline, workspace: Workspace
+) -> None:
+    session = workspace.session
+    session.apply("Insert keyframe", insert_keyframe, 2, Keyframe(48, SQUARE))
+    assert x_of(timeline, 48) == pytest.approx(timeline.ruler.width() - 28)
+    session.undo()
+    assert x_of(timeline, 25) == pytest.approx(timeline.ruler.width() - 28)
+    wheel(timeline.ruler, 300.0, 120)
+    zoomed = timeline.view.scale
+    session.redo()
     assert timeline.view.scale == zoomed
 
 
