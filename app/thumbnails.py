@@ -14,6 +14,9 @@ from core.geometry.flatten import flatten
 from core.model import Document, Outline, Style
 from core.model.outline import Array
 
+PAPER, CONTRAST = "#ffffff", "#6b7280"
+PALE = 0.8
+"""Lighter than this, a fill would not show on paper."""
 MARGIN = 0.1
 """Free space at each side, as a part of the picture."""
 
@@ -21,7 +24,8 @@ MARGIN = 0.1
 def outline_thumbnail(outline: Outline, style: Style, size: QSize, ratio: float = 1.0) -> QPixmap:
     """Draw an outline as large as it fits."""
     rings = _rings(outline)
-    image, painter = _sheet(size, ratio, "#ffffff")
+    pale = style.fill and colour(style.fill).lightnessF() > PALE
+    image, painter = _sheet(size, ratio, CONTRAST if pale else PAPER)
     _aim(painter, size, [rings])
     _paint(painter, rings, style)
     painter.end()

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.files.placing import Place, misplaced
+from app.files.placing import Place, misplaced, subjects
 from app.thumbnails import outline_thumbnail
 from core.io.importers import Part
 from core.model import Document, Layer, Style
@@ -125,14 +125,13 @@ class ImportDialog(QDialog):
 
     def _choose_first(self, document: Document) -> None:
         """Start with what is most likely meant."""
-        if len(self._parts) <= 2:
-            self.list.selectAll()
-        else:
-            self.list.item(0).setSelected(True)
+        wanted = subjects(self._parts)
+        for i in wanted if len(wanted) <= 2 else wanted[:1]:
+            self.list.item(i).setSelected(True)
         likely = Place.LAYERS
-        if self._layer is not None and not self._layer.spans and len(self._parts) == 1:
+        if self._layer is not None and not self._layer.spans and len(self._chosen) == 1:
             likely = Place.TARGET
-        elif not document.layers and len(self._parts) == 2:
+        elif not document.layers and len(self._chosen) == 2:
             likely = Place.PAIR
         self._radios[likely].setChecked(True)
         self._on_selected()

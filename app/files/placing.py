@@ -7,12 +7,16 @@ from enum import Enum
 
 from app.canvas.tools.drawing import TARGET_AFTER
 from app.canvas.tools.edits import draw_key, redraw_key
+from core.geometry.flatten import flatten
+from core.geometry.polyline import signed_area
 from core.io.importers import Part, bounds
 from core.model import Document
 from core.model.edits import add_layer, update_layer
 
-TINY = 0.05
-"""Smaller than this part of the artboard's height and width, an import could hardly be seen."""
+TINY = 0.2
+"""Smaller than this part of the artboard's height and width, an import looks lost: icons are."""
+STRAIGHT = 0.01
+"""A backdrop leaves no more than this part of the picture free."""
 
 
 class Place(Enum):
@@ -31,6 +35,23 @@ def misplaced(parts: Sequence[Part], size: tuple[float, float]) -> bool:
     width, height = size
     outside = left < -width / 2 or top < -height / 2 or right > 1.5 * width or bottom > 1.5 * height
     return outside or max((right - left) / width, (bottom - top) / height) < TINY
+
+
+def subjects(parts: Sequence[Part]) -> list[int]:
+    """Return which parts are likely to be wanted: all but backdrops, which fill the picture."""
+    left, top, right, bottom = bounds(parts)
+    room = (right - left) * (bottom - top)
+    wanted = [
+        i
+        for i, part in enumerate(parts)
+        if len(part.outline.rings) > 1 or _area(part) < (1 - STRAIGHT) * room
+    ]
+    return wanted or list(range(len(parts)))
+
+
+def _area(part: Part) -> float:
+    """Return the area within a part's exterior."""
+    return abs(signed_area(flatten(part.outline)[0].points))
 
 
 def add_layers(document: Document, parts: Sequence[Part], frame: int) -> Document:

@@ -275,6 +275,40 @@ def test_the_import_dialog_offers_what_fits_the_number_chosen(
     assert dialog.choice().place is Place.PAIR
 
 
+ICON = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 512 512">
+<path d="M0 0h512v512H0z"/><path d="M100 400L256 90l156 310z" fill="#fff"/></svg>"""
+
+
+def test_an_icon_is_wanted_without_its_backdrop_and_can_be_seen(
+    window: MainWindow, tmp_path: Path, qtbot: QtBot
+) -> None:
+    draw(window)
+    (tmp_path / "icon.svg").write_text(ICON)
+    document = window.workspace.session.document
+    parts = importers.read(tmp_path / "icon.svg")
+    dialog = ImportDialog(parts, document, document.layers[0], window)
+    qtbot.addWidget(dialog)
+    assert dialog.choice().parts == (parts[1],)
+    assert dialog.choice().place is Place.TARGET
+    image = dialog.list.item(1).icon().pixmap(96, 96).toImage()
+    assert image.pixelColor(48, 60) != image.pixelColor(48, 3)
+
+
+def test_an_emoji_in_units_of_its_own_is_fitted_to_the_artboard(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    (tmp_path / "heart.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 36 36">'
+        '<path d="M2 12l16 22 16-22-8-8-8 6-8-6z"/></svg>'
+    )
+    drop(window, tmp_path / "heart.svg")
+    (layer,) = window.workspace.session.document.layers
+    assert layer.name == "heart"
+    left, top, right, bottom = layer.keyframes[0].outline.bounds()
+    assert ((left + right) / 2, (top + bottom) / 2) == pytest.approx((480, 270))
+    assert bottom - top > 300
+
+
 def drop(window: MainWindow, *paths: Path) -> None:
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])

@@ -209,6 +209,10 @@ def test_parts_are_named_by_label_title_or_id_or_else_counted() -> None:
     assert names == ["i", "T", "L", "circle 4", "rect 1", "path 1 (1)", "path 1 (2)", "i (2)"]
 
 
+def test_the_only_shape_of_a_drawing_is_named_after_the_file() -> None:
+    assert part('<circle r="5"/>').name == "file"
+
+
 @pytest.mark.parametrize("href", ["href", "xlink:href"])
 def test_uses_are_placed(href: str) -> None:
     body = (

@@ -26,7 +26,7 @@ def read(data: bytes, name: str, warn: Warn) -> list[Part]:
 
     try:
         drawing = svgelements.SVG.parse(
-            io.BytesIO(survey(data, warn)), reify=False, ppi=PIXELS_PER_INCH
+            io.BytesIO(survey(data, name, warn)), reify=False, ppi=PIXELS_PER_INCH
         )
         shapes = [e for e in drawing.elements() if isinstance(e, svgelements.Shape)]
     except RecursionError as error:

@@ -37,8 +37,11 @@ _UNSUPPORTED_ATTRIBUTES = {
 }
 
 
-def survey(data: bytes, warn: Warn) -> bytes:
-    """Check an SVG file and return it with names on its shapes; FileError if it is no SVG."""
+def survey(data: bytes, name: str, warn: Warn) -> bytes:
+    """Check an SVG file and return it with names on its shapes; FileError if it is no SVG.
+
+    ``name`` is for a shape that is the only one and has none of its own.
+    """
     try:
         root = ElementTree.fromstring(data)
     except ElementTree.ParseError as error:
@@ -48,7 +51,7 @@ def survey(data: bytes, warn: Warn) -> bytes:
     _check_budget(root)
     for warning in sorted(set(_warnings(root))):
         warn(warning)
-    _name_shapes(root)
+    _name_shapes(root, name)
     _drop_broken_paths(root, warn)
     _shelve_symbols(root)
     return ElementTree.tostring(root)
@@ -94,17 +97,16 @@ def _check_budget(root: Element) -> None:
         raise FileError(f"The drawing has more than {MAX_ELEMENTS} elements.")
 
 
-def _name_shapes(root: Element) -> None:
+def _name_shapes(root: Element, only: str) -> None:
     """Name every shape by its label, title or id, or else by its kind and number."""
     numbers: Counter[str] = Counter()
-    for element in root.iter():
+    shapes = [element for element in root.iter() if _tag(element) in SHAPES]
+    for element in shapes:
         tag = _tag(element)
-        if tag not in SHAPES:
-            continue
         numbers[tag] += 1
         title = next((child.text for child in element if _tag(child) == "title"), None)
         name = element.get(LABEL) or (title or "").strip() or element.get("id")
-        element.set(NAME, name or f"{tag} {numbers[tag]}")
+        element.set(NAME, name or (only if len(shapes) == 1 else f"{tag} {numbers[tag]}"))
 
 
 def _drop_broken_paths(root: Element, warn: Warn) -> None:
