@@ -122,8 +122,9 @@ def _repaired(polygon: Polygon, rings: int, side: str, repairs: list[str]) -> Po
     shaved = largest.buffer(-1e-7 * np.sqrt(largest.area), join_style="mitre")
     if isinstance(shaved, Polygon) and not LinearRing(largest.exterior).is_simple:
         largest = shaved
-    lost = abs(_drawn_area(polygon) - largest.area) / max(valid.area, _drawn_area(polygon))
-    if largest.is_empty or len(largest.interiors) != rings - 1 or lost > MAX_LOSS:
+    drawn = _drawn_area(polygon)
+    lost = abs(drawn - largest.area) / max(valid.area, drawn) if largest.area else np.inf
+    if len(largest.interiors) != rings - 1 or lost > MAX_LOSS:
         what = "crosses itself" if rings == 1 else "has rings that cross or touch"
         raise OutlineError(
             f"The {side} {what} near ({place[0]:.4g}, {place[1]:.4g}).",

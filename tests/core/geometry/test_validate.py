@@ -87,3 +87,8 @@ def test_a_repair_leaves_the_holes_in_their_order(order):
     assert result.repairs
     for ring, hole in zip(result.rings[1:], holes, strict=True):
         assert ring.mean(axis=0) == pytest.approx(hole.mean(axis=0))
+
+
+def test_lines_drawn_to_and_fro_are_refused():
+    with pytest.raises(OutlineError, match="crosses itself"):
+        clean([np.array([[1, 3], [2, 3], [1, 1], [3, 0], [1, 1], [2, 3]])], "source")
