@@ -171,8 +171,9 @@ def _snapped(anchors: Array, source: _Curve, target: _Curve, spacing: float) -> 
     close = np.abs(a[i] - b[j]) <= reach
     found = np.column_stack([a[i], target.vertices[j]])[close]
     # both must lie strictly inside the same arc, or the order at a mark would be torn
-    arc = [np.searchsorted(ends[:, k], found[:, k] - 1e-12, side="right") for k in (0, 1)]
-    beyond = [np.searchsorted(ends[:, k], found[:, k] + 1e-12, side="right") for k in (0, 1)]
+    ends, places = ends / ends[-1], found / ends[-1]
+    arc = [np.searchsorted(ends[:, k], places[:, k] - 1e-12, side="right") for k in (0, 1)]
+    beyond = [np.searchsorted(ends[:, k], places[:, k] + 1e-12, side="right") for k in (0, 1)]
     inside = (arc[0] == arc[1]) & (beyond[0] == arc[0]) & (beyond[1] == arc[1])
     joined = np.vstack([anchors, found[inside]])
     return joined[np.argsort(joined[:, 0], kind="stable")]
