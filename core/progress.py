@@ -13,3 +13,11 @@ It may raise ``Cancelled``: that is how a caller stops the work.
 
 def silent(fraction: float, stage: str) -> None:
     """Ignore progress."""
+
+
+Watch = Callable[[str], None]
+"""Called as ``watch(stage)`` before steps whose number is not known; it may raise ``Cancelled``."""
+
+
+def unwatched(stage: str) -> None:
+    """Watch nothing."""

@@ -7,8 +7,6 @@ the boundary as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from core.fem.elements import Elements
@@ -20,6 +18,7 @@ from core.morph.flips import flip
 from core.morph.joint import JointMesh
 from core.morph.removal import remove
 from core.morph.smoothing import smooth
+from core.progress import Watch, unwatched
 
 COARSENINGS = 12
 RELAX_STEPS = 2
@@ -37,14 +36,8 @@ SMALLEST = 0.03
 FLAT = 1e-12
 """Where a triangle's quality is less, Newton's method would drown in rounding errors."""
 
-Watch = Callable[[str], None]
 
-
-def _unwatched(stage: str) -> None:
-    pass
-
-
-def coarsen(mesh: Mesh, target: Array, watch: Watch = _unwatched) -> tuple[Mesh, Array]:
+def coarsen(mesh: Mesh, target: Array, watch: Watch = unwatched) -> tuple[Mesh, Array]:
     """Return a mesh with few inner vertices, and target positions (n, 2) of its vertices.
 
     Made for overlays, whose crossings crowd where the shapes differ most. ``watch(stage)`` is
@@ -63,7 +56,7 @@ def coarsen(mesh: Mesh, target: Array, watch: Watch = _unwatched) -> tuple[Mesh,
 
 
 def improve(
-    mesh: Mesh, target: Array, max_area: float, watch: Watch = _unwatched, *, rounds: int
+    mesh: Mesh, target: Array, max_area: float, watch: Watch = unwatched, *, rounds: int
 ) -> tuple[Mesh, Array]:
     """Return a better mesh of the same boundary, and target positions (n, 2) of its vertices.
 

@@ -18,6 +18,7 @@ from core.model.outline import Array
 from core.model.recipe import Method
 from core.morph.fit import GradientFit
 from core.morph.guard import FoldGuard
+from core.progress import Watch, unwatched
 
 SURVEY = 16
 """Moments at which a motion is searched for folds beforehand."""
@@ -28,8 +29,13 @@ WATCHED = 0.6
 class Interpolate(Protocol):
     """A way from rest to target."""
 
-    def __init__(self, rest: Array, target: Array, triangles: Indices) -> None:
-        """Prepare for positions (n, 2) at both ends and triangles (m, 3)."""
+    def __init__(
+        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+    ) -> None:
+        """Prepare for positions (n, 2) at both ends and triangles (m, 3).
+
+        ``watch(stage)`` is called between steps and may raise ``Cancelled``.
+        """
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t."""
@@ -39,7 +45,9 @@ class Interpolate(Protocol):
 class PlainRigid:
     """The paper's form: S grows as (1 − t) I + t S, and source areas are the weights."""
 
-    def __init__(self, rest: Array, target: Array, triangles: Indices) -> None:
+    def __init__(
+        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+    ) -> None:
         self._elements = elements = Elements.of(rest, triangles)
         F = elements.deformation_gradients(target)
         theta, self.stretch = polar(F)
@@ -84,8 +92,10 @@ class Rigid(PlainRigid):
     J > 0 everywhere.
     """
 
-    def __init__(self, rest: Array, target: Array, triangles: Indices) -> None:
-        super().__init__(rest, target, triangles)
+    def __init__(
+        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+    ) -> None:
+        super().__init__(rest, target, triangles, watch)
         S = self.stretch
         mean = (S[:, 0, 0] + S[:, 1, 1]) / 2
         half = np.hypot((S[:, 0, 0] - S[:, 1, 1]) / 2, S[:, 0, 1])
@@ -95,7 +105,7 @@ class Rigid(PlainRigid):
         """(m, 2, 2) symmetric, with eigenvalues 1 and −1 along the axes of stretch."""
         self._logs = np.log(mean + half), np.log(mean - half)
         self._guard = FoldGuard(self._elements, self._after, self.weights)
-        self._margins, self._anchors = self._survey(rest)
+        self._margins, self._anchors = self._survey(rest, watch)
 
     def _fitted(self, t: float) -> Array:
         x = super()._fitted(t)
@@ -107,12 +117,13 @@ class Rigid(PlainRigid):
             return x
         return self._guard(ideal, self._anchors[k])
 
-    def _survey(self, rest: Array) -> tuple[Array, list[Array]]:
+    def _survey(self, rest: Array, watch: Watch) -> tuple[Array, list[Array]]:
         """Walk through the motion once: how close frames come to a fold, and a sound frame near
         each moment for the guard to start from.
         """
         margins, anchors = np.ones(SURVEY + 1), [rest]
         for k in range(1, SURVEY + 1):
+            watch("in-between")
             ideal = self.ideal(k / SURVEY)
             x = self.fit(ideal)
             margins[k] = self._guard.margin(x, ideal)
@@ -136,7 +147,9 @@ class Rigid(PlainRigid):
 class Linear:
     """Straight vertex paths: what rigid interpolation is compared with."""
 
-    def __init__(self, rest: Array, target: Array, triangles: Indices) -> None:
+    def __init__(
+        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+    ) -> None:
         self._rest, self._target = rest, target
 
     def __call__(self, t: float) -> Array:

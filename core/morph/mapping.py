@@ -6,7 +6,7 @@ folds, a mesh that fits both outlines from the start takes its place, cleaned up
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -21,12 +21,11 @@ from core.morph.overlay import compatible_mesh
 from core.morph.placement import place, settle
 from core.morph.quality import distortion
 from core.morph.report import Iteration, Stage
+from core.progress import Watch
 
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
 POOR = 50.0
 """Distortion of a triangle above which a sound map is cleaned up as well."""
-
-Watch = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from time import perf_counter
@@ -24,7 +24,7 @@ from core.morph.mapping import Map, direct_map, mended_map
 from core.morph.morph import Morph
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report
-from core.progress import Progress, silent
+from core.progress import Progress, Watch, silent
 
 MIN_DENSITY = 3
 GOOD = 1.3
@@ -68,7 +68,8 @@ def solve_outlines(
     rest, goal = here.outside(mesh.points), there.outside(found.target)
     rest[:b] = np.concatenate([pair.source for pair in boundary])
     goal[:b] = np.concatenate([pair.target for pair in boundary])
-    inbetween = _inbetween(recipe, mesh.points, here.inside(goal), mesh.triangles)
+    goal_inside = here.inside(goal)
+    inbetween = _inbetween(recipe, mesh.points, goal_inside, mesh.triangles, clock.watch)
     clock.stop()
     report = Report(
         vertices=len(rest),
@@ -109,7 +110,7 @@ def _best(
     boundaries: Iterable[list[BoundaryPair]],
     frames: tuple[_Frame, _Frame],
     recipe: Recipe,
-    watch: Callable[[str], None],
+    watch: Watch,
 ) -> tuple[list[BoundaryPair], Map, int]:
     """Return the boundary with the least distorted map, that map, and how many were tried."""
     watch("matching")
@@ -141,11 +142,13 @@ def _inside(
     )
 
 
-def _inbetween(recipe: Recipe, rest: Array, target: Array, triangles: Indices) -> Interpolate:
+def _inbetween(
+    recipe: Recipe, rest: Array, target: Array, triangles: Indices, watch: Watch
+) -> Interpolate:
     """Prepare the recipe's method; on a folded map Sᵗ does not exist, and the plain form serves."""
     folded = len(folds(target, triangles)) > 0
     method = "plain arap" if recipe.method == "arap" and folded else recipe.method
-    return METHODS[method](rest, target, triangles)
+    return METHODS[method](rest, target, triangles, watch)
 
 
 def _cleaned(outline: Outline, side: str) -> CleanOutline:

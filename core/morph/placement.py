@@ -20,6 +20,7 @@ from core.model import Recipe
 from core.model.outline import Array
 from core.morph.report import Iteration
 from core.morph.untangle import VALID, untangle
+from core.progress import Watch, unwatched
 
 MAX_STEPS = 60
 CONVERGED = 1e-4
@@ -35,9 +36,7 @@ class Placed:
     iterations: tuple[Iteration, ...]
 
 
-def place(
-    mesh: Mesh, boundary: Array, recipe: Recipe, watch: Callable[[str], None] = lambda stage: None
-) -> Placed:
+def place(mesh: Mesh, boundary: Array, recipe: Recipe, watch: Watch = unwatched) -> Placed:
     """Place the interior of ``mesh`` for boundary positions (b, 2), both at about unit area.
 
     ``watch(stage)`` is called before every step and may raise ``Cancelled``.
@@ -50,9 +49,7 @@ def place(
     return problem.settled(x, recipe)
 
 
-def settle(
-    mesh: Mesh, x: Array, recipe: Recipe, watch: Callable[[str], None] = lambda stage: None
-) -> Placed:
+def settle(mesh: Mesh, x: Array, recipe: Recipe, watch: Watch = unwatched) -> Placed:
     """Bring the material's energy to its minimum from positions x (n, 2) without folds."""
     return _Problem(mesh, watch).settled(x, recipe)
 
@@ -60,7 +57,7 @@ def settle(
 class _Problem:
     """The free vertices of a mesh, and the history of moving them."""
 
-    def __init__(self, mesh: Mesh, watch: Callable[[str], None]) -> None:
+    def __init__(self, mesh: Mesh, watch: Watch) -> None:
         self.elements = Elements.of(mesh.points, mesh.triangles)
         self.free = np.arange(mesh.boundary_size, len(mesh.points))
         self._watch = watch
