@@ -74,7 +74,8 @@ class Row:
         """Return the row as columns of plain values."""
         columns = {field.name: getattr(self, field.name) for field in fields(self)}
         del columns["ms_stages"]
-        columns |= {f"ms_{s}": ms for s, ms in zip(STAGES, self.ms_stages, strict=True)}
+        for stage, ms in zip(STAGES, self.ms_stages, strict=True):
+            columns["ms_" + stage.replace(" ", "_")] = ms
         columns["crossing_frames"] = len(self.crossing)
         columns["crossing"] = " ".join(f"{t:.3f}" for t in self.crossing)
         columns["jolt_ratio"] = self.jolt_ratio
