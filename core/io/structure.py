@@ -10,9 +10,9 @@ import numpy as np
 
 from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Style
 from core.model.edits import MIN_NODES
+from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
 
 MAX_FRAME = 1_000_000
-MAX_DENSITY = 10_000
 COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
 
 Problem = tuple[str, str]
@@ -99,8 +99,9 @@ def _style(path: str, style: Style) -> Iterator[Problem]:
 
 
 def _recipe(path: str, recipe: Recipe) -> Iterator[Problem]:
-    if not MIN_NODES <= recipe.density <= MAX_DENSITY:
-        yield f"{path}.density", f"{recipe.density} is not between {MIN_NODES} and {MAX_DENSITY}"
+    least, most = LEAST_DENSITY, MOST_DENSITY
+    if not least <= recipe.density <= most:
+        yield f"{path}.density", f"{recipe.density} is not between {least} and {most}"
     yield from _positive(f"{path}.mu", recipe.mu)
     if not (isfinite(recipe.lam) and recipe.lam >= 0):
         yield f"{path}.lam", f"{recipe.lam} is not zero or positive"

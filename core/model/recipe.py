@@ -8,6 +8,9 @@ from typing import Literal
 Method = Literal["arap", "plain arap", "linear"]
 Material = Literal["symmetric-dirichlet", "st-venant-kirchhoff"]
 
+LEAST_DENSITY, MOST_DENSITY = 3, 10_000
+"""What a density can be."""
+
 
 @dataclass(frozen=True)
 class Recipe:

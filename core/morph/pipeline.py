@@ -17,6 +17,7 @@ from core.geometry.validate import CleanOutline, clean
 from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
+from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
 from core.morph.boundary import BoundaryPair
 from core.morph.correspondence import correspondences, place_marks
 from core.morph.inbetween import METHODS, Interpolate
@@ -26,7 +27,6 @@ from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report
 from core.progress import Progress, Watch, silent
 
-MIN_DENSITY = 3
 GOOD = 1.3
 """Mean distortion below which a proposed correspondence needs no rival."""
 MEDIOCRE = 2.0
@@ -156,10 +156,10 @@ def _cleaned(outline: Outline, side: str) -> CleanOutline:
 
 
 def _check_recipe(recipe: Recipe) -> None:
-    if recipe.density < MIN_DENSITY:
+    if not LEAST_DENSITY <= recipe.density <= MOST_DENSITY:
         raise SolveError(
-            f"A mesh density of {recipe.density} is too coarse.",
-            hint=f"Choose at least {MIN_DENSITY} boundary vertices.",
+            f"A mesh density of {recipe.density} is out of range.",
+            hint=f"Choose {LEAST_DENSITY} to {MOST_DENSITY} boundary vertices.",
         )
     if not (0 <= recipe.lam < np.inf and 0 < recipe.mu < np.inf):
         raise SolveError(
