@@ -148,7 +148,7 @@ def _proposed(source: CleanOutline, target: CleanOutline, match: RingMatch) -> M
 
 def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> MatchedRing:
     a, b = source.rings[pair.source], target.rings[pair.target]
-    start, end, _ = best_shift(a, b, pair.rotation)
+    start, end = best_shift(a, b, pair.rotation)
     return _with_marks(a, b, np.array([start]), np.array([end]))
 
 

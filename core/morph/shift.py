@@ -12,13 +12,12 @@ SAMPLES = 256
 
 def best_shift(
     source: Array, target: Array, rotation: complex | None = None
-) -> tuple[float, float, complex]:
+) -> tuple[float, float]:
     """Find corresponding starts of two clean rings (n, 2) and (k, 2).
 
-    Returns the arc length on the source, that on the target, and the rotation between them as a
-    unit complex number. Each cyclic shift is scored by how well the rings then fit under their best
-    similarity (Procrustes); between near equals the smaller rotation wins, or the one closest to
-    ``rotation`` if that is given.
+    Returns the arc length on the source and that on the target. Each cyclic shift is scored by how
+    well the rings then fit under their best similarity (Procrustes); between near equals the
+    smaller rotation wins, or the one closest to ``rotation``, of length one, if that is given.
     """
     start = _prominent_vertex(source)
     a, b = (_samples(p, s) for p, s in ((source, arc_lengths(source)[start]), (target, 0.0)))
@@ -29,11 +28,8 @@ def best_shift(
     shift = int(np.argmax(np.abs(fit) * (1 + weight * wish)))
     lengths = arc_lengths(target)
     at = shift * lengths[-1] / SAMPLES
-    return (
-        float(arc_lengths(source)[start]),
-        _to_vertex(target, lengths, at, 1.5 * lengths[-1] / SAMPLES),
-        complex(turn[shift]),
-    )
+    reach = 1.5 * lengths[-1] / SAMPLES
+    return float(arc_lengths(source)[start]), _to_vertex(lengths, at, reach)
 
 
 def _samples(points: Array, start: float) -> Array:
@@ -49,7 +45,7 @@ def _prominent_vertex(points: Array) -> int:
     return int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(points), 9)))
 
 
-def _to_vertex(points: Array, lengths: Array, at: float, reach: float) -> float:
+def _to_vertex(lengths: Array, at: float, reach: float) -> float:
     """Move an arc length to the nearest vertex within reach."""
     perimeter = lengths[-1]
     gap = np.abs(np.mod(lengths[:-1] - at + perimeter / 2, perimeter) - perimeter / 2)
