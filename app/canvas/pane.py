@@ -100,6 +100,9 @@ class Pane(QWidget):
         """Show what the tool in hand has changed about itself."""
         self.view.rest_cursor(tool.cursor)
         self.tool_overlay.tool = tool
+        at_rest = not self._workspace.playhead.playing or (tool.aims and not self.live)
+        for item in (self.tool_overlay, self._marks):  # what plays is looked at, not worked on
+            item.setVisible(at_rest or tool.busy)
         if repaint:
             self.tool_overlay.update()
         self._invitation.make_room(tool.busy)

@@ -60,6 +60,7 @@ class MarksTool(Tool):
     """Places and drags marks."""
 
     name = "marks"
+    aims = True
 
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(workspace, parent)

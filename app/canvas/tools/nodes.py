@@ -35,6 +35,7 @@ class NodesTool(Tool):
     """Works on the nodes of the key in each pane."""
 
     name = "nodes"
+    aims = True
 
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(workspace, parent)

@@ -52,6 +52,8 @@ class Tool(QObject):
 
     name = ""
     cursor = Qt.CursorShape.ArrowCursor
+    aims = False
+    """Whether it works on what keys show in so many places that playing must not hide them."""
 
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(parent)

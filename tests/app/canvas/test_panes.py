@@ -152,6 +152,24 @@ def test_a_span_that_cannot_be_solved_says_so(open_canvas, qtbot):
     qtbot.waitUntil(lambda: hand.pane(BETWEEN).state == "not solved")
 
 
+def test_box_and_marks_are_out_of_sight_while_playing(open_canvas: Callable[..., Hand]):
+    hand = open_canvas(a_document())
+    hand.workspace.view.update(onion=False)
+    seen = [count(image(hand.pane(SOURCE)), ink) for ink in (colours().selection, colours().mark)]
+    assert min(seen) > 0
+    hand.workspace.playhead.play()
+    QApplication.processEvents()
+    for role in (SOURCE, BETWEEN, TARGET):
+        picture = image(hand.pane(role))
+        assert count(picture, colours().selection) == count(picture, colours().mark) == 0
+    hand.canvas.set_tool("marks")  # marks can be put right while the motion repeats
+    assert count(image(hand.pane(SOURCE)), colours().mark) > 0
+    assert count(image(hand.pane(BETWEEN)), colours().mark) == 0
+    hand.workspace.playhead.stop()
+    QApplication.processEvents()
+    assert count(image(hand.pane(BETWEEN)), colours().mark) > 0
+
+
 def test_onion_skin_shows_both_keys_in_between_but_not_while_playing(hand: Hand):
     show(hand, 13)
     plain = image(hand.pane(BETWEEN))
