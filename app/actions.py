@@ -227,6 +227,8 @@ ENTRIES: tuple[Entry, ...] = (
     _tool("marks", "Place &marks", "M", "F5"),
 
     Entry("fit", "&Fit to window", lambda d: d.canvas.fit(), ("Ctrl+0",), "fit"),
+    Entry("zoom-drawing", "Zoom to the &drawing", lambda d: d.canvas.zoom_to_drawing(), ("F",),
+          when=_layer),
     Entry("zoom-100", "Zoom to &100 %", lambda d: d.canvas.zoom_100(), ("Ctrl+1",)),
     Entry("flip", "Fli&p view", lambda d: d.canvas.flip(), ("Shift+H",), "flip"),
     _layout("side by side", "&Side by side", "Ctrl+2", "side-by-side"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, QPointF, QRectF, QSizeF, Signal
 
 MIN_ZOOM, MAX_ZOOM = 0.02, 64.0
-FIT_MARGIN = 0.12
+FIT_MARGIN = 0.08
 """Fraction of the pane that "fit" leaves free, both sides together."""
 
 
@@ -38,11 +38,15 @@ class Camera(QObject):
         self._look(anchor + (self.centre - anchor) * (self.zoom / zoom), zoom)
 
     def fit(self, rect: QRectF, size: QSizeF) -> None:
+        """Show a document rectangle whole in a pane of this size, and again on resizing."""
+        self.show(rect, size)
+        self.fitted = True
+
+    def show(self, rect: QRectF, size: QSizeF) -> None:
         """Show a document rectangle whole in a pane of this size in pixels."""
         width, height = max(rect.width(), 1e-9), max(rect.height(), 1e-9)
         zoom = (1 - FIT_MARGIN) * min(size.width() / width, size.height() / height)
         self._look(rect.center(), min(max(zoom, MIN_ZOOM), MAX_ZOOM))
-        self.fitted = True
 
     def flip(self) -> None:
         """Mirror the view, not the document."""

@@ -100,19 +100,29 @@ class Canvas(QWidget):
     # -- the view ------------------------------------------------------------------------------
 
     def fit(self) -> None:
-        """Show everything that was drawn, or the artboard when nothing was."""
-        document = self._workspace.session.document
+        """Show the whole artboard in each pane, and all that was drawn beyond it."""
+        board = QRectF(0, 0, *self._workspace.session.document.size)
+        self.camera.fit(board.united(self._drawn()), self._room())
+
+    def zoom_to_drawing(self) -> None:
+        """Show everything that was drawn as large as each pane allows."""
+        drawn = self._drawn()
+        if not drawn.isEmpty():
+            self.camera.show(drawn, self._room())
+
+    def _drawn(self) -> QRectF:
+        """Return what all keyframes of all layers cover."""
         bounds = QRectF()
-        for layer in document.layers:
+        for layer in self._workspace.session.document.layers:
             for keyframe in layer.keyframes:
                 box = TransformBox.around(keyframe.outline)
                 bounds = bounds.united(QRectF(QPointF(*box.low), QPointF(*box.high)))
-        if bounds.isEmpty():
-            bounds = QRectF(0, 0, *document.size)
+        return bounds
+
+    def _room(self) -> QSizeF:
+        """Return the pixels that every pane on screen has."""
         sizes = [pane.view.size() for pane in self._shown_panes()]
-        self.camera.fit(
-            bounds, QSizeF(min(s.width() for s in sizes), min(s.height() for s in sizes))
-        )
+        return QSizeF(min(s.width() for s in sizes), min(s.height() for s in sizes))
 
     def zoom_100(self) -> None:
         """Show one document unit as one pixel."""

@@ -129,6 +129,29 @@ def test_fit_shows_every_keyframe_in_every_pane(hand: Hand):
         assert (pixels <= [size.width(), size.height()]).all()
 
 
+def test_fit_shows_the_whole_artboard_in_every_pane(hand: Hand):
+    width, height = hand.document.size
+    for layout in ("side by side", "overlay"):
+        hand.workspace.view.update(layout=layout)
+        QApplication.processEvents()
+        hand.canvas.fit()
+        for pane in hand.canvas.panes.values():
+            if pane.isVisible():
+                size = pane.view.viewport().size()
+                pixels = pane.view.to_screen([(0, 0), (width, height)])
+                assert (pixels >= 0).all()
+                assert (pixels <= [size.width(), size.height()]).all()
+
+
+def test_the_drawing_can_be_seen_larger_than_the_artboard_allows(hand: Hand):
+    hand.canvas.fit()
+    whole = hand.canvas.camera.zoom
+    hand.canvas.zoom_to_drawing()
+    assert hand.canvas.camera.zoom > 1.2 * whole
+    drawn = np.vstack([hand.points(0), hand.points(1)])
+    assert (hand.pane(SOURCE).view.to_screen(drawn) >= 0).all()
+
+
 def test_fit_shows_the_artboard_when_nothing_is_drawn(open_canvas):
     hand = open_canvas(Document(size=(400, 300)))
     hand.canvas.fit()
