@@ -266,6 +266,8 @@ ENTRIES: tuple[Entry, ...] = (
           ("Shift+Del",), "delete", _span),
     *(_easing(preset) for preset in PRESETS),
 
+    Entry("suggest-marks", "&Suggest marks", lambda d: d.commands.suggest_marks(),
+          ("Ctrl+Shift+M",), when=_span),
     Entry("remove-mark", "&Delete mark", lambda d: d.commands.remove_mark(), (), "delete", _mark),
     Entry("remove-marks", "Delete &all marks", lambda d: d.commands.remove_all_marks(),
           when=_marked),

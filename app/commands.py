@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
-from app.canvas.tools.edits import delete_nodes
+from app.canvas.tools.edits import delete_nodes, suggest_marks
 from app.workspace import Workspace
 from core.errors import EditError
 from core.model import Layer
@@ -24,10 +24,14 @@ from core.morph.scene import keyframe_at
 class Commands(QObject):
     """Acts on what is selected and where the playhead is; every edit is one undo step."""
 
+    noted = Signal(str)
+    """What came of it, where that is not plain to see."""
+
     def __init__(self, workspace: Workspace, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._selection = workspace.session, workspace.selection
         self._playhead, self._solver = workspace.playhead, workspace.solver
+        self._view = workspace.view
 
     # -- edit ----------------------------------------------------------------------------------
 
@@ -105,6 +109,18 @@ class Commands(QObject):
         self._session.apply(self.tr("Change easing"), set_easing, layer.id, key, PRESETS[preset])
 
     # -- marks ---------------------------------------------------------------------------------
+
+    def suggest_marks(self) -> None:
+        """Add the marks that the span under the playhead needs besides those it has."""
+        layer = self._unlocked()
+        span, _ = layer.span_at(self._playhead.frame)
+        self._session.apply(self.tr("Suggest marks"), suggest_marks, layer.id, span)
+        added = self._session.document.layer(layer.id).labels[len(layer.labels) :]
+        self._view.update(marks=True)
+        text = self.tr("These two outlines need no more marks.")
+        if added:
+            text = self.tr("Marks added: {count} ({letters}). Drag any that you want elsewhere.")
+        self.noted.emit(text.format(count=len(added), letters=", ".join(added)))
 
     def remove_mark(self) -> None:
         """Remove the selected mark."""

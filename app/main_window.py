@@ -120,6 +120,7 @@ class MainWindow(QMainWindow):
         self.canvas.hint_changed.connect(self.status.set_hint)
         self.status.set_hint(self.canvas.hint)
         self.status.cancel_asked.connect(self._cancel_solving)
+        self.commands.noted.connect(self.reporter.note)
         self.autosave.failed.connect(self.reporter.show_refusal)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop_theme)
 

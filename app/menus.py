@@ -34,7 +34,7 @@ MENUS: tuple[Menu, ...] = (
                 "-", "layer-above", "layer-below", "-", "layer-visible", "layer-locked")),
     ("&Keyframe", ("insert-key", "draw-key", "remove-key", "-", "previous-key", "next-key", "-",
                    ("&Easing of the span", tuple(f"easing-{preset}" for preset in PRESETS)))),
-    ("&Mark", ("tool-marks", "marks", "-", "remove-mark", "remove-marks")),
+    ("&Mark", ("tool-marks", "suggest-marks", "marks", "-", "remove-mark", "remove-marks")),
     ("&Playback", ("play", "play-from-start", "stop", "-", "previous-frame", "next-frame", "first",
                    "last", "-", ("At the &end", ("loop-loop", "loop-ping-pong", "loop-once")),
                    "-", "solve", "cancel")),

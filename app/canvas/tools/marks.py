@@ -77,7 +77,7 @@ class MarksTool(Tool):
         layer, key = self.layer, pointer.pane.key
         if self._mark is None and layer is not None and key is not None:
             place = self._place_at(pointer)
-            self._places = composed.mates(layer, key, place) if place else []
+            self._places = composed.mates(layer, {key: place}) if place else []
         taken = self._mark is not None or self._places
         self.cursor = Qt.CursorShape.PointingHandCursor if taken else Qt.CursorShape.ArrowCursor
 

@@ -78,7 +78,7 @@ def test_a_mark_has_one_place_on_every_key_and_the_clicked_one_is_kept():
     place = RingPoint(0, 1.25)
     layer = a_document().layers[0]
     for key in (0, 1):
-        found = mates(layer, key, place)
+        found = mates(layer, {key: place})
         assert len(found) == 2
         assert found[key] == place
     marked = place_mark(a_document(), 1, 0, place).layers[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -183,6 +184,31 @@ def test_insert_keyframe_makes_the_in_between_on_screen_a_key(
     assert not window.actions_["insert-key"].isEnabled()
     press(window, "Shift+Del")
     assert window.workspace.session.document == before
+
+
+def test_suggested_marks_are_placed_on_every_key_in_one_step(window: MainWindow) -> None:
+    session, playhead = window.workspace.session, window.workspace.playhead
+    arm = [(100, 250), (300, 250), (500, 250), (500, 290), (300, 290), (100, 290)]
+    bent = [(100, 250), (300, 250), (300, 50), (340, 50), (340, 290), (100, 290)]
+    keys = (Keyframe(1, Outline.polygon(arm)), Keyframe(25, Outline.polygon(bent)))
+    session.replace(Document((Layer(1, "arm", (*keys, replace(keys[0], frame=49))),)))
+    bare = session.document
+    playhead.move_to(10)
+    press(window, "Ctrl+Shift+M")
+    (layer,) = session.document.layers
+    count = len(layer.labels)
+    assert count >= 3
+    assert all(len(key.marks) == count for key in layer.keyframes)
+    assert f"{count} (a, b, c" in window.messages.text
+    first, _, last = ([mark.at for mark in key.marks] for key in layer.keyframes)
+    np.testing.assert_allclose(first, last, atol=1e-6)  # the third key is the first again
+    press(window, "Ctrl+Shift+M")
+    assert len(session.document.layers[0].labels) == count
+    assert "no more" in window.messages.text
+    press(window, "Ctrl+Z")
+    assert session.document is bare
+    session.replace(Document((Layer(1, "arm", keys[:1]),)))
+    assert not window.actions_["suggest-marks"].isEnabled()
 
 
 def test_delete_removes_what_is_selected(window: MainWindow) -> None:
