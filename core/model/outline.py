@@ -73,7 +73,7 @@ class Ring:
         )
 
     def __hash__(self) -> int:
-        return hash(self.points.tobytes())
+        return hash((self.points + 0.0).tobytes())  # −0 equals 0, and must hash alike
 
     def _arrays(self) -> tuple[Array, Array, Array]:
         return self.points, self.handles_in, self.handles_out

@@ -90,3 +90,10 @@ def test_an_outline_keeps_its_own_copy_of_the_points() -> None:
 def test_points_of_the_wrong_shape_are_refused() -> None:
     with pytest.raises(ValueError, match="expected"):
         Ring.polygon([[0.0, 0.0, 0.0]])
+
+
+def test_equal_rings_hash_alike_whatever_the_sign_of_nought():
+    points = np.array([[0.0, 0], [1, 0], [1, 1]])
+    ring, same = Ring.polygon(points), Ring.polygon(np.where(points == 0, -0.0, points))
+    assert ring == same
+    assert hash(ring) == hash(same)
