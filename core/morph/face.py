@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import index as as_integer
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,10 +40,7 @@ def solve(
     Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint.
     """
     ends = _outline(source, "source"), _outline(target, "target")
-    pairs = [
-        (_place(ends[0], a, "source", i), _place(ends[1], b, "target", i))
-        for i, (a, b) in enumerate(marks or ())
-    ]
+    pairs = [_places(ends, pair, i) for i, pair in enumerate(() if marks is None else marks)]
     return solve_outlines(*ends, pairs, recipe=recipe, progress=progress)
 
 
@@ -60,12 +59,34 @@ def _outline(given: Shape, side: str) -> Outline:
         ) from None
 
 
-def _place(outline: Outline, mark: MarkIndex, side: str, index: int) -> RingPoint:
-    ring, vertex = mark if isinstance(mark, tuple) else (0, mark)
+def _places(
+    ends: tuple[Outline, Outline], pair: tuple[MarkIndex, MarkIndex], index: int
+) -> tuple[RingPoint, RingPoint]:
+    try:
+        (ring, vertex), (other_ring, other) = map(_numbers, pair)
+    except (TypeError, ValueError):
+        raise MarkError(
+            f"Mark {index} is {pair}, not a pair of vertices.",
+            where=Where(marks=(index,)),
+            hint="Give (vertex, vertex), or ((ring, vertex), (ring, vertex)).",
+        ) from None
+    return (
+        _place(ends[0], ring, vertex, "source", index),
+        _place(ends[1], other_ring, other, "target", index),
+    )
+
+
+def _numbers(mark: Any) -> tuple[int, int]:
+    """Return ring and vertex; TypeError or ValueError for what names none."""
+    ring, vertex = mark if np.ndim(mark) else (0, mark)
+    return as_integer(ring), as_integer(vertex)
+
+
+def _place(outline: Outline, ring: int, vertex: int, side: str, index: int) -> RingPoint:
     if not 0 <= ring < len(outline.rings) or not 0 <= vertex < len(outline.rings[ring]):
         raise MarkError(
             f"Mark {index} names vertex {vertex} of ring {ring} of the {side}, which is not there.",
             where=Where(side, marks=(index,)),
             hint="Count rings and vertices from 0.",
         )
-    return RingPoint(int(ring), float(vertex))
+    return RingPoint(ring, float(vertex))

@@ -68,6 +68,20 @@ def test_a_mark_that_names_no_vertex_is_refused():
         core.solve(ellipse(), letter_l(), [(0, 99)])
 
 
+@pytest.mark.parametrize("marks", [np.array([[0, 0], [9, 3]]), [[0, 0], [9, 3]], [(0, 0), (9, 3)]])
+def test_marks_may_be_any_pairs_of_integers(marks):
+    morph = core.solve(ellipse(), letter_l(), marks)
+    source = [tuple(p) for p in morph.rest]
+    for a, b in marks:
+        assert tuple(morph.target[source.index(tuple(ellipse()[a]))]) == tuple(letter_l()[b])
+
+
+@pytest.mark.parametrize("mark", [3, (0, 1, 2), (0.5, 1), ("a", 1), ((0, 1, 2), 0), None])
+def test_a_mark_that_is_no_pair_of_vertices_is_refused(mark):
+    with pytest.raises(core.MarkError, match="Mark 1"):
+        core.solve(ellipse(), letter_l(), [(0, 0), mark])
+
+
 @pytest.mark.parametrize("nonsense", ["text", [1, 2, 3], [[1, 2], [3]], None, np.zeros((4, 3))])
 def test_what_is_no_outline_is_refused_with_its_side(nonsense):
     with pytest.raises(core.OutlineError, match="target"):
