@@ -16,7 +16,7 @@ def write_picture(picture: Picture, path: Path, size: Size | None = None) -> Non
     from app.render.painter import render_image
 
     image = render_image(picture, size)
-    with replacing(path) as draft:
+    with replacing(path, flush=False) as draft:
         if not image.save(str(draft), "PNG"):
             raise FileError(
                 "The image cannot be written.",

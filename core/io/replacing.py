@@ -13,11 +13,12 @@ from core.errors import FileError, Where
 
 
 @contextmanager
-def replacing(path: Path | str) -> Iterator[Path]:
+def replacing(path: Path | str, *, flush: bool = True) -> Iterator[Path]:
     """Yield an empty temporary file in the same folder; it replaces ``path`` if all goes well.
 
     The old file stays untouched until then, and keeps its permissions afterwards. A link is
-    followed. FileError when the system refuses.
+    followed. ``flush`` waits until the disk has it, which is slow, and only worth it for what
+    cannot be made again. FileError when the system refuses.
     """
     place = Path(os.path.realpath(path))
     draft = place.with_name(f".betwixt-{secrets.token_hex(6)}.tmp")
@@ -26,9 +27,11 @@ def replacing(path: Path | str) -> Iterator[Path]:
         yield draft
         if place.exists():
             shutil.copymode(place, draft)
-        _flush(draft)
+        if flush:
+            _flush(draft)
         os.replace(draft, place)
-        _flush(place.parent)
+        if flush:
+            _flush(place.parent)
     except OSError as error:
         raise unwritable(path, error) from error
     finally:

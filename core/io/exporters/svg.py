@@ -17,7 +17,7 @@ _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 def write_picture(picture: Picture, path: Path, size: Size | None = None) -> None:
     """Write a picture, fitted into a size in pixels; without one it has the document's."""
-    with replacing(path) as draft:
+    with replacing(path, flush=False) as draft:
         draft.write_text(drawing(picture, size), encoding="utf-8")
 
 
