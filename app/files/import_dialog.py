@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.files.placing import Place, misplaced, subjects
+from app.files.placing import Place, largest, misplaced, subjects
 from app.thumbnails import outline_thumbnail
 from core.io.importers import Part
 from core.model import Document, Layer, Style
@@ -126,7 +126,7 @@ class ImportDialog(QDialog):
     def _choose_first(self, document: Document) -> None:
         """Start with what is most likely meant."""
         wanted = subjects(self._parts)
-        for i in wanted if len(wanted) <= 2 else wanted[:1]:
+        for i in wanted if len(wanted) <= 2 else [largest(self._parts, wanted)]:
             self.list.item(i).setSelected(True)
         likely = Place.LAYERS
         if self._layer is not None and not self._layer.spans and len(self._chosen) == 1:

@@ -49,6 +49,11 @@ def subjects(parts: Sequence[Part]) -> list[int]:
     return wanted or list(range(len(parts)))
 
 
+def largest(parts: Sequence[Part], among: Sequence[int]) -> int:
+    """Return which of the parts with these indices covers most, the first of equals."""
+    return max(among, key=lambda i: _area(parts[i]))
+
+
 def _area(part: Part) -> float:
     """Return the area within a part's exterior."""
     return abs(signed_area(flatten(part.outline)[0].points))

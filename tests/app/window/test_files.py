@@ -294,6 +294,16 @@ def test_an_icon_is_wanted_without_its_backdrop_and_can_be_seen(
     assert image.pixelColor(48, 60) != image.pixelColor(48, 3)
 
 
+def test_of_many_shapes_the_largest_is_chosen_at_first(window: MainWindow, qtbot: QtBot) -> None:
+    parts = [
+        importers.Part(f"s{size}", Outline.polygon([(0, 0), (size, 0), (0, size)]))
+        for size in (10, 90, 30)
+    ]
+    dialog = ImportDialog(parts, Document(), None, window)
+    qtbot.addWidget(dialog)
+    assert [part.name for part in dialog.choice().parts] == ["s90"]
+
+
 def test_an_emoji_in_units_of_its_own_is_fitted_to_the_artboard(
     window: MainWindow, tmp_path: Path
 ) -> None:
