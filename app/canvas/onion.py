@@ -14,24 +14,26 @@ from core.geometry.flatten import flatten
 from core.model import Outline
 
 FILL_ALPHA = 36
+BEFORE, AFTER = Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine
+Ghost = tuple[Outline, str, Qt.PenStyle]
+"""An outline, its colour, and the line that tells before from after without it."""
 
 
 class OnionSkin(QGraphicsItem):
-    """Tinted outlines: a faint fill and a thin line, dashed for the later one."""
+    """Tinted outlines: a faint fill and a thin line."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._shown: tuple[tuple[Outline, str], ...] = ()
+        self._shown: tuple[Ghost, ...] = ()
         self._ghosts: list[tuple[QPainterPath, QColor, QPen]] = []
 
-    def show_outlines(self, outlines: Sequence[tuple[Outline, str]]) -> None:
-        """Show (outline, colour) pairs, in the order before, after."""
+    def show_outlines(self, outlines: Sequence[Ghost]) -> None:
+        """Show ghosts of keyframes; none hides them."""
         if self._shown == tuple(outlines):
             return
         self._shown = tuple(outlines)
-        styles = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
         self._ghosts = []
-        for (outline, colour), style in zip(outlines, styles, strict=False):
+        for outline, colour, style in outlines:
             path = outline_path([polyline.points for polyline in flatten(outline)])
             fill = QColor(colour)
             fill.setAlpha(FILL_ALPHA)

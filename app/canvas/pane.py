@@ -15,7 +15,7 @@ from app.canvas.invitation import Invitation
 from app.canvas.marks_overlay import MarksOverlay
 from app.canvas.mesh_overlay import MeshOverlay
 from app.canvas.moment import Moment, Role, edited_key
-from app.canvas.onion import OnionSkin
+from app.canvas.onion import AFTER, BEFORE, OnionSkin
 from app.canvas.overlay import ToolOverlay
 from app.canvas.pins import NO_PINS, pins_between, pins_on_key
 from app.canvas.view import View
@@ -148,8 +148,9 @@ class Pane(QWidget):
             self._onion.show_outlines(())
             return
         before, after = moment.layer.keyframes[moment.span : moment.span + 2]
+        ends = ((before, colours().source, BEFORE), (after, colours().target, AFTER))
         self._onion.show_outlines(
-            ((before.outline, colours().source), (after.outline, colours().target))
+            tuple((key.outline, *ink) for key, *ink in ends if key.frame != moment.frame)
         )
 
     def _show_mesh(self, moment: Moment) -> None:
@@ -215,7 +216,11 @@ class Pane(QWidget):
             details.append(self.tr("editing frame {frame}").format(frame=keyframe.frame))
         elif keyframe:
             details.append(frame.format(frame=keyframe.frame))
-        tag = self._state_text(moment) if live and spanned else ""
+        tag = ""
+        if live and moment.layer is not None and not moment.layer.visible:
+            tag = self.tr("layer is hidden")
+        elif live and spanned:
+            tag = self._state_text(moment)
         tints = {Role.SOURCE: colours().source, Role.TARGET: colours().target}
         tint = tints.get(self.role, colours().muted)
         self._header.show_title(name, " · ".join(details), tag, tint)

@@ -183,6 +183,24 @@ def test_onion_skin_shows_both_keys_in_between_but_not_while_playing(hand: Hand)
     assert image(hand.pane(BETWEEN)) == plain
 
 
+def test_a_key_has_no_onion_skin_of_itself(hand: Hand):
+    pictures = []
+    for onion in (False, True):
+        hand.workspace.view.update(onion=onion)
+        show(hand, 25)
+        pictures.append(image(hand.pane(BETWEEN)))
+    plain, skinned = pictures
+    assert plain != skinned
+    right = hand.pixel(BETWEEN, (605, 0)).x()  # only the later key, which is shown, is there
+    assert plain.copy(right, 0, 400, 400) == skinned.copy(right, 0, 400, 400)
+
+
+def test_a_hidden_layer_is_not_said_to_be_out_of_date(hand: Hand):
+    hand.workspace.session.apply("Hide", update_layer, 1, visible=False)
+    show(hand, 13)
+    assert hand.pane(BETWEEN).state == "layer is hidden"
+
+
 def test_an_empty_document_invites_to_draw(open_canvas):
     hand = open_canvas(Document())
     for role, words in ((SOURCE, "Draw the source outline here"), (TARGET, "Then the target")):
