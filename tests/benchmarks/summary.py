@@ -114,15 +114,15 @@ def _crossings(rows: Sequence[Row]) -> Iterator[str]:
         for row in crossing:
             span = f"t {row.crossing[0]:.2f} to {row.crossing[-1]:.2f}"
             linear = f"straight paths {row.linear_crossing_frames}"
-            yield f"  {row.pair:<32}{len(row.crossing):3} frames, {span}; {linear}"
+            yield f"  {row.pair:<36}{len(row.crossing):3} frames, {span}; {linear}"
         yield ""
 
 
 def _worst(rows: Sequence[Row]) -> Iterator[str]:
-    yield f"{'The worst pairs':<32}{'folds':>6}{'SD mean':>9}{'SD worst':>10}{'angle':>8}  route"
+    yield f"{'The worst pairs':<36}{'folds':>6}{'SD mean':>9}{'SD worst':>10}{'angle':>8}  route"
     for row in sorted(rows, key=badness, reverse=True)[:WORST]:
         angle = min(row.angle_source, row.angle_target)
         yield (
-            f"{row.pair:<32}{_folds(row):6}{row.distortion_mean:9.3f}"
+            f"{row.pair:<36}{_folds(row):6}{row.distortion_mean:9.3f}"
             f"{row.distortion_worst:10.4g}{angle:7.2f}°  {row.route}, {row.tried} tried"
         )
