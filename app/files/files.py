@@ -58,8 +58,8 @@ class Files(QObject):
 
     def open_path(self, path: Path) -> bool:
         """Open a project, unless the artist wants to keep the one that is open."""
-        document = self._load(path)
-        if document is None or not self.may_leave():
+        document = self._load_instead(path)
+        if document is None:
             return False
         self._session.replace(document, path)
         self._remember(path)
@@ -67,8 +67,8 @@ class Files(QObject):
 
     def open_sample(self, path: Path) -> bool:
         """Open a copy of a sample: it has no file yet, so that saving asks for one."""
-        document = self._load(path)
-        if document is None or not self.may_leave():
+        document = self._load_instead(path)
+        if document is None:
             return False
         self._session.replace(document)
         return True
@@ -98,7 +98,13 @@ class Files(QObject):
         answer = dialogs.ask_unsaved(self._window, self.name)
         return self.save() if answer == "save" else answer == "discard"
 
-    def _load(self, path: Path) -> Document | None:
+    def _load_instead(self, path: Path) -> Document | None:
+        """Load a project to take the place of the open one.
+
+        The artist is asked first: the answer may be to save into the file to be loaded.
+        """
+        if not self.may_leave():
+            return None
         try:
             return project.load(path)
         except FileError as error:

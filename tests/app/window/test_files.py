@@ -93,11 +93,26 @@ def test_a_damaged_file_is_refused_and_what_is_open_stays(
 ) -> None:
     draw(window)
     before = window.workspace.session.document
+    artist["unsaved"] = "discard"
     artist["open"] = tmp_path / "bad.betwixt"
     artist.answers["open"].write_bytes(b"not a project")
     press(window, "Ctrl+O")
     assert window.workspace.session.document is before
     assert "bad.betwixt" in window.messages.text
+
+
+@pytest.mark.parametrize("way", ["open_path", "open_sample"])
+def test_opening_the_same_file_again_brings_back_what_was_just_saved(
+    window: MainWindow, artist: Artist, tmp_path: Path, way: str
+) -> None:
+    artist["save"] = tmp_path / "fish.betwixt"
+    press(window, "Ctrl+S")
+    draw(window)
+    edited = window.workspace.session.document
+    artist["unsaved"] = "save"
+    assert getattr(window.files, way)(tmp_path / "fish.betwixt")
+    assert window.workspace.session.document == edited
+    assert project.load(tmp_path / "fish.betwixt") == edited
 
 
 @pytest.mark.parametrize(("answer", "closed"), [("cancel", False), ("discard", True)])
