@@ -207,8 +207,17 @@ class Canvas(QWidget):
         self.setFocusProxy(shown[len(shown) // 2].view)
 
     def _on_view_changed(self) -> None:
-        self._show_layout()
+        if any(pane.isHidden() for pane in self._shown_panes()):
+            self._change_layout()
         self.refresh()
+
+    def _change_layout(self) -> None:
+        """Show other panes; what was begun in those before ends there, and the keys move on."""
+        self._tool.put_away()
+        focused = any(pane.view.hasFocus() for pane in self.panes.values())
+        self._show_layout()
+        if focused:
+            self.setFocus()
 
     def _on_resized(self) -> None:
         """Fit again, as long as the artist has neither zoomed nor panned."""

@@ -52,6 +52,31 @@ def test_undo_after_drawing_restores_the_identical_document(empty: Hand):
     assert empty.document is before
 
 
+def test_what_is_drawn_is_kept_when_the_layout_changes_and_the_keys_follow(empty: Hand):
+    for corner in CORNERS[:3]:
+        empty.click(SOURCE, corner)
+    empty.pane(SOURCE).view.setFocus()
+    empty.workspace.view.update(layout="overlay")
+    assert empty.steps == ["Draw layer"]
+    assert len(empty.points()) == 3
+    assert empty.pane(OVERLAY).view.hasFocus()
+    for corner in CORNERS:
+        empty.click(OVERLAY, corner)
+    empty.key(OVERLAY, Key.Key_Return)
+    assert len(empty.points()) == 5
+    empty.workspace.view.update(layout="side by side")
+    assert empty.pane(BETWEEN).view.hasFocus()
+
+
+def test_an_option_of_the_view_does_not_end_a_drawing(empty: Hand):
+    for corner in CORNERS[:3]:
+        empty.click(SOURCE, corner)
+    empty.workspace.view.update(mesh=True)
+    empty.click(SOURCE, CORNERS[3])
+    empty.key(SOURCE, Key.Key_Return)
+    assert len(empty.points()) == 4
+
+
 def test_enter_closes_the_outline(empty: Hand):
     for corner in CORNERS[:3]:
         empty.click(SOURCE, corner)
