@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
@@ -18,7 +18,10 @@ from core.model.edits import (
     set_easing,
     update_layer,
 )
-from core.morph.scene import keyframe_at
+from core.morph.scene import Span, keyframe_at
+
+if TYPE_CHECKING:
+    from core.morph.morph import Morph
 
 
 class Commands(QObject):
@@ -89,9 +92,9 @@ class Commands(QObject):
     # -- keyframes -----------------------------------------------------------------------------
 
     def insert_keyframe(self) -> None:
-        """Make what is on screen at the playhead a keyframe."""
+        """Make the in-between at the playhead a keyframe; EditError while it is not solved."""
         layer, frame = self._unlocked(), round(self._playhead.frame)
-        key = keyframe_at(layer, frame, self._solver.morph_of)
+        key = keyframe_at(layer, frame, self._solution)
         if self._session.apply(self.tr("Insert keyframe"), insert_keyframe, layer.id, key):
             self._select_key_at(layer.id, frame)
 
@@ -151,6 +154,21 @@ class Commands(QObject):
                 hint=self.tr("Unlock it in the Layer menu to change it."),
             )
         return layer
+
+    def _solution(self, span: Span) -> Morph:
+        """Return the solution of a span; never the stale one that may be on screen."""
+        solution = self._solver.solutions().get(span)
+        if solution is not None:
+            return solution
+        if self._solver.busy:
+            raise EditError(
+                self.tr("This in-between is still being solved."),
+                hint=self.tr("Wait a moment, then insert the keyframe again."),
+            )
+        raise EditError(
+            self.tr("This in-between is not solved."),
+            hint=self.tr("Show the layer, or mend its outlines or marks, so that it can be."),
+        )
 
     def _index(self, layer: Layer) -> int:
         return [other.id for other in self._session.document.layers].index(layer.id)

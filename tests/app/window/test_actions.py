@@ -11,6 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLineEdit
+from pytestqt.qtbot import QtBot
 
 import resources
 from app.actions import ENTRIES
@@ -18,6 +19,7 @@ from app.icons import pixmap
 from app.main_window import MainWindow
 from app.menus import MENUS, TOP_BAR, Items
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.model.edits import move_nodes
 from core.morph.scene import layer_rings
 from tests.app.window.conftest import press
 
@@ -184,6 +186,28 @@ def test_insert_keyframe_makes_the_in_between_on_screen_a_key(
     assert not window.actions_["insert-key"].isEnabled()
     press(window, "Shift+Del")
     assert window.workspace.session.document == before
+
+
+def test_a_stale_in_between_is_never_made_a_key(window: MainWindow, qtbot: QtBot) -> None:
+    session, solver = window.workspace.session, window.workspace.solver
+    insert, layer_id = window.actions_["insert-key"], window.workspace.selection.layer.id
+    qtbot.waitUntil(lambda: not solver.busy)
+    window.workspace.playhead.move_to(13)
+    session.apply("Move", move_nodes, layer_id, 1, 0, [0], (-40, -40))
+    before = session.document
+    insert.trigger()
+    assert session.document is before
+    assert "still being solved" in window.messages.text
+    qtbot.waitUntil(lambda: not solver.busy)
+    insert.trigger()
+    assert session.document is not before
+    session.undo()
+    session.apply("Twist", move_nodes, layer_id, 1, 0, [0], (400, 100))
+    twisted = session.document
+    qtbot.waitUntil(lambda: not solver.busy)
+    insert.trigger()
+    assert session.document is twisted
+    assert "not solved" in window.messages.text
 
 
 def test_suggested_marks_are_placed_on_every_key_in_one_step(window: MainWindow) -> None:
