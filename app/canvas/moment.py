@@ -60,7 +60,8 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     stale = frozenset(
         other.id
         for other in document.layers
-        if 0 < progress(other, frame) < 1 and state_of(other) is not SpanState.SOLVED
+        if progress(other, frame) not in (0.0, 1.0)  # an easing may also overshoot
+        and state_of(other) is not SpanState.SOLVED
     )
     if layer is None or not layer.spans:
         return Moment(document, frame, layer, stale=stale)

@@ -15,7 +15,7 @@ from app.canvas.pane import Pane
 from app.style import colours
 from core.errors import MarkError, OutlineError, Where
 from core.model import Document, Outline, Style
-from core.model.easing import HOLD
+from core.model.easing import HOLD, Easing
 from core.model.edits import add_layer, set_easing, update_layer
 from core.progress import Progress
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document, fan
@@ -142,6 +142,19 @@ def test_an_in_between_is_dimmed_and_tagged_until_it_is_solved(open_canvas, qtbo
     gate.set()
     qtbot.waitUntil(lambda: hand.pane(BETWEEN).state == "")
     assert colour_at(hand, BETWEEN, (450, 250)) == "#ff0000"
+
+
+@pytest.mark.parametrize("frame", [4, 13, 22])
+def test_a_stale_in_between_is_dimmed_also_where_its_easing_overshoots(open_canvas, qtbot, frame):
+    def refuse(span, progress):
+        raise MarkError("Marks a and b are out of order.")
+
+    document = update_layer(a_document(marks=False), 1, style=RED)
+    easing = Easing(0.2, -1.5, 0.8, 2.5)
+    hand = open_canvas(set_easing(document, 1, 0, easing), solve=refuse)
+    hand.workspace.view.update(onion=False)
+    show(hand, frame)
+    assert colour_at(hand, BETWEEN, (450, 250)) not in ("#ff0000", "#ffffff")
 
 
 def test_a_span_that_cannot_be_solved_says_so(open_canvas, qtbot):
