@@ -48,7 +48,7 @@ class SpanState(Enum):
 class _Job(NamedTuple):
     number: int
     key: Key | None
-    """Where its result is shown; None once another document was opened."""
+    """Where its result is shown; None once that place has left the document."""
     span: Span
 
 
@@ -161,6 +161,8 @@ class Solver(QObject):
             for index in range(layer.spans)
         }
         self._keys = {span: key for key, span in self._spans.items()}
+        if self._job and self._job.key not in self._spans:  # a new layer may get the same id
+            self._job = self._job._replace(key=None)
         self._held = False
         self._quiet.start()
         self._advance()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -336,3 +337,20 @@ def test_closing_while_solving_ends_the_thread_and_restores_the_interpreter(
     workspace.solver.close()
     assert thread.isFinished()
     assert sys.getswitchinterval() == before
+
+
+def test_a_new_layer_never_shows_what_was_being_solved_for_a_deleted_one(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(solved(workspace))
+    bench.gate.clear()
+    nudge(workspace)
+    late = span(workspace)
+    qtbot.waitUntil(lambda: late in bench.started)
+    session = workspace.session
+    session.apply("Delete", lambda before: replace(before, layers=()))
+    new = move_nodes(document((1, 2)), 1, 0, 0, [2], (-1, 0))  # ids are given again
+    session.apply("Import", lambda _: new)
+    bench.passed.add(late)
+    qtbot.waitUntil(lambda: bench.started[-1] == span(workspace))
+    assert workspace.solver.morph_of(span(workspace)) is None
