@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from time import perf_counter
 
 import numpy as np
 
 from core.fem.elements import Elements
+from core.geometry.rotation import turn_and_mirror
 from core.geometry.triangulation import Mesh, split_chords, triangulate
 from core.model import Recipe
 from core.model.outline import Array
@@ -26,6 +28,9 @@ from core.progress import Watch
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
 POOR = 50.0
 """Distortion of a triangle above which a sound map is cleaned up as well."""
+
+TURNING = 0.15
+"""What half a turn adds to the cost of a map, as a fraction of its distortion."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +54,22 @@ class Map:
     @property
     def mean(self) -> float:
         """Mean distortion by area: 1 is an isometry, infinite has a fold."""
-        areas = Elements.of(self.mesh.points, self.mesh.triangles).areas
-        return float(np.average(self.distortion, weights=areas))
+        return float(np.average(self.distortion, weights=self._elements.areas))
+
+    @property
+    def turn(self) -> float:
+        """How far the shape turns as a whole, in (-π, π]."""
+        turn, _ = turn_and_mirror(self._elements.deformation_gradients(self.target))
+        return float(np.angle(self._elements.areas @ turn))
+
+    @property
+    def cost(self) -> float:
+        """Mean distortion, and a little for turning: a shape is not turned for nothing."""
+        return self.mean * (1 + TURNING * abs(self.turn) / np.pi)
+
+    @cached_property
+    def _elements(self) -> Elements:
+        return Elements.of(self.mesh.points, self.mesh.triangles)
 
 
 def direct_map(

@@ -29,6 +29,8 @@ from core.progress import Progress, Watch, silent
 
 GOOD = 1.3
 """Mean distortion below which a proposed correspondence needs no rival."""
+UPRIGHT = np.pi / 3
+"""Turn of the whole shape above which a rival that turns less is looked for."""
 MEDIOCRE = 2.0
 """Mean distortion above which all proposals are mended before the best is chosen."""
 MOST_TRIED = 4
@@ -47,9 +49,9 @@ def solve_outlines(
     """Map the source onto the target and prepare the in-betweens.
 
     ``marks`` are corresponding places on both, named by ``labels`` in errors. Without any on the
-    exterior, several proposals are tried and the least distorted one is taken. Raises
-    ``OutlineError``, ``MarkError`` or ``SolveError`` for input that has no answer, and whatever
-    ``progress`` raises.
+    exterior, several proposals are tried; the one that distorts least, and does not turn for
+    nothing, is taken. Raises ``OutlineError``, ``MarkError`` or ``SolveError`` for input that has
+    no answer, and whatever ``progress`` raises.
     """
     recipe = recipe or Recipe()
     _check_recipe(recipe)
@@ -112,25 +114,25 @@ def _best(
     recipe: Recipe,
     watch: Watch,
 ) -> tuple[list[BoundaryPair], Map, int]:
-    """Return the boundary with the least distorted map, that map, and how many were tried."""
+    """Return the boundary with the best map, that map, and how many were tried."""
     watch("matching")
     tried: list[tuple[list[BoundaryPair], Map]] = []
     for boundary in islice(boundaries, MOST_TRIED):
         tried.append((boundary, direct_map(*_inside(boundary, frames), recipe, watch)))
-        if tried[-1][1].mean < GOOD:
+        if tried[-1][1].mean < GOOD and abs(tried[-1][1].turn) < UPRIGHT:
             break
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
-    best = min(tried, key=_mean)
+    best = min(tried, key=_cost)
     mended = [
         (boundary, mended_map(found, *_inside(boundary, frames), recipe, watch))
-        for boundary, found in (tried if _mean(best) > MEDIOCRE else [best])
+        for boundary, found in (tried if best[1].mean > MEDIOCRE else [best])
     ]
-    return *min(mended, key=_mean), len(tried)
+    return *min(mended, key=_cost), len(tried)
 
 
-def _mean(pair: tuple[list[BoundaryPair], Map]) -> float:
-    return pair[1].mean
+def _cost(pair: tuple[list[BoundaryPair], Map]) -> float:
+    return pair[1].cost
 
 
 def _inside(

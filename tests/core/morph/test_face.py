@@ -130,3 +130,14 @@ def test_a_comb_against_a_square_keeps_both_outlines():
     morph = core.solve(comb(), square, [(0, 0), (1, 1)])
     for drawn, end in ((comb(), morph.rest), (square, morph.target)):
         assert {tuple(p) for p in drawn} <= {tuple(p) for p in end}
+
+
+def test_without_marks_a_shape_is_not_turned_for_nothing():
+    bar = np.array([[0, 0], [8, 0.1], [8, 1.1], [4, 1.25], [0, 1]])
+    morph = core.solve(bar, bar * [1.1, 1.0] + [0.0, 3.0])
+    assert abs(np.average(morph.inbetween.theta)) < 0.2
+
+
+def test_without_marks_a_shape_that_did_turn_is_turned():
+    morph = core.solve(limb(1.2), limb(1.2) @ rotation(2.8).T)
+    assert np.average(morph.inbetween.theta) == pytest.approx(2.8, abs=0.01)
