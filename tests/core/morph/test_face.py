@@ -139,5 +139,5 @@ def test_without_marks_a_shape_is_not_turned_for_nothing():
 
 
 def test_without_marks_a_shape_that_did_turn_is_turned():
-    morph = core.solve(limb(1.2), limb(1.2) @ rotation(2.8).T)
+    morph = core.solve(letter_l(), letter_l() @ rotation(2.8).T)
     assert np.average(morph.inbetween.theta) == pytest.approx(2.8, abs=0.01)
