@@ -202,7 +202,7 @@ def test_a_stale_in_between_is_never_made_a_key(window: MainWindow, qtbot: QtBot
     insert.trigger()
     assert session.document is not before
     session.undo()
-    session.apply("Twist", move_nodes, layer_id, 1, 0, [0], (400, 100))
+    session.apply("Twist", move_nodes, layer_id, 1, 0, [0], (600, 50))
     twisted = session.document
     qtbot.waitUntil(lambda: not solver.busy)
     insert.trigger()
