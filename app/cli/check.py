@@ -92,8 +92,8 @@ def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
     except MorphError as error:
         return entry | {"error": str(error)}
     solved = perf_counter() - start
-    easing = layer.keyframes[index].easing
-    times = [(frame, easing((frame - first) / (last - first))) for frame in range(first, last + 1)]
+    times = [(frame, layer.progress_at(frame)[1]) for frame in range(first, last)]
+    times.append((last, 1.0))  # that key begins the next span
     found = check_span(span, morph, times)
     return entry | {
         "sound": found.sound,

@@ -45,10 +45,12 @@ class DocumentFilm:
 
     def _of(self, layer: Layer) -> Iterator[Track]:
         first, last = self.frames
-        by_span: dict[int, list[int]] = {}
+        by_span: dict[int, dict[int, float]] = {}
         for frame in range(first, last + 1):
-            by_span.setdefault(layer.span_at(frame)[0], []).append(frame)
-        for span, frames in by_span.items():
+            span, s = layer.progress_at(frame)
+            by_span.setdefault(span, {})[frame] = s
+        for span, progress in by_span.items():
+            frames = list(progress)
             morph = self.morph_of(span_of(layer, span)) if layer.spans else None
             times = [(frame - 1) / self.document.fps for frame in frames]
             if morph is None:  # one keyframe: nothing moves, there is no mesh
@@ -57,9 +59,7 @@ class DocumentFilm:
                 triangles = np.empty((0, 3), dtype=int)
                 boundary = _consecutive(rings)
             else:
-                easing = layer.keyframes[span].easing
-                s = [easing(layer.span_at(frame)[1]) for frame in frames]
-                positions = np.stack([morph.at(value) for value in s])
+                positions = np.stack([morph.at(s) for s in progress.values()])
                 triangles, boundary = morph.triangles, morph.rings
             yield Track(layer.name, positions, triangles, boundary, frames, times)
 

@@ -58,6 +58,11 @@ class Layer:
         t = (frame - frames[index]) / (frames[index + 1] - frames[index])
         return index, min(max(t, 0.0), 1.0)
 
+    def progress_at(self, frame: float) -> tuple[int, float]:
+        """Return the span that covers a frame, and s in it: how far its shape has come."""
+        index, t = self.span_at(frame)
+        return index, self.keyframes[index].easing(t)
+
     def room(self, key: int) -> tuple[float, float]:
         """Return the least and the greatest frame that a keyframe can have between its neighbours.
 

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.model import Document, Layer
+from core.model import Document, Easing, Keyframe, Layer, Outline
 from core.model.layer import mark_labels
 from tests.core.model.shapes import layers
 
 frames = st.floats(-50, 250)
+SQUARE = Outline.polygon([[0, 0], [1, 0], [1, 1], [0, 1]])
 
 
 @given(layers(), frames)
@@ -66,3 +67,13 @@ def test_marks_are_lettered_a_to_z_and_on_from_aa() -> None:
 def test_a_document_spans_from_its_first_key_to_its_last(stack: list[Layer]) -> None:
     keys = [key.frame for layer in stack for key in layer.keyframes] or [1]
     assert Document(tuple(stack)).frames == (min(keys), max(keys))
+
+
+def test_progress_is_time_in_the_span_eased_by_the_key_that_begins_it() -> None:
+    slow = Easing(0.42, 0, 1, 1)
+    layer = Layer(
+        1, "", (Keyframe(0, SQUARE, (), slow), Keyframe(10, SQUARE), Keyframe(20, SQUARE))
+    )
+    assert layer.progress_at(5) == (0, slow(0.5))
+    assert layer.progress_at(10) == (1, 0.0)
+    assert layer.progress_at(99) == (1, 1.0)
