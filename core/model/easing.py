@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+FLAT = 1e-9
+"""A rise too small to be divided by."""
+WILD = 100.0
+"""A half that overshoots by more than this many times its own rise is made even."""
+
 
 @dataclass(frozen=True)
 class Easing:
@@ -25,8 +30,33 @@ class Easing:
             return 1.0
         if t <= 0 or self.hold:
             return 0.0
-        if self.x1 == self.y1 and self.x2 == self.y2:
-            return t
+        return t if self._even else _cubic(self._parameter(t), self.y1, self.y2)
+
+    def split(self, t: float) -> tuple[Easing, Easing]:
+        """Return the timing before and after t ∈ (0, 1), each as an easing of its own.
+
+        Run one after the other they are this one: exactly, unless time all but turns back on the
+        curve (``x1 > x2``), or overshooting it returns to a key at t; they come close then.
+        """
+        if self.hold or self._even:
+            return self, self
+        u = self._parameter(t)
+        a, b, end = complex(self.x1, self.y1), complex(self.x2, self.y2), 1 + 1j
+        first, middle, last = u * a, a + u * (b - a), b + u * (end - b)  # de Casteljau
+        before, after = first + u * (middle - first), middle + u * (last - middle)
+        here = before + u * (after - before)
+        late = _from_handles(end - last, end - after, end - here)  # from its end, then turned round
+        return (
+            _from_handles(first, before, here),
+            Easing(1 - late.x2, 1 - late.y2, 1 - late.x1, 1 - late.y1),
+        )
+
+    @property
+    def _even(self) -> bool:
+        return self.x1 == self.y1 and self.x2 == self.y2
+
+    def _parameter(self, t: float) -> float:
+        """Return the curve parameter at which the time is t."""
         low, high = 0.0, 1.0
         for _ in range(60):  # bisection: x(u) is monotone, and no start value can go astray
             u = (low + high) / 2
@@ -34,11 +64,25 @@ class Easing:
                 low = u
             else:
                 high = u
-        return _cubic(u, self.y1, self.y2)
+        return u
 
 
 def _cubic(u: float, a: float, b: float) -> float:
     return 3 * (1 - u) ** 2 * u * a + 3 * (1 - u) * u * u * b + u**3
+
+
+def _from_handles(a: complex, b: complex, end: complex) -> Easing:
+    """Return the curve from 0 to ``end`` by way of two handles, x + iy, scaled to the unit square.
+
+    Its first handle is shortened where it reaches past the end.
+    """
+    if abs(end.imag) < FLAT:
+        return LINEAR
+    x1, y1 = a.real / end.real, a.imag / end.imag
+    x2, y2 = b.real / end.real, b.imag / end.imag
+    if x1 > 1:
+        x1, y1 = 1.0, y1 / x1
+    return Easing(x1, y1, min(x2, 1.0), y2) if max(abs(y1), abs(y2)) <= WILD else LINEAR
 
 
 LINEAR = Easing()

@@ -68,7 +68,11 @@ def update_layer(document: Document, layer_id: int, **changes: Any) -> Document:
 
 
 def insert_keyframe(document: Document, layer_id: int, keyframe: Keyframe) -> Document:
-    """Add a keyframe; it must place every mark of the layer. Its frame must be free."""
+    """Add a keyframe; it must place every mark of the layer. Its frame must be free.
+
+    Inside a span it takes over the later part of that span's timing, so that progress stays what it
+    was at every frame.
+    """
 
     def edit(layer: Layer) -> Layer:
         if layer.key_at(keyframe.frame) is not None:
@@ -78,7 +82,13 @@ def insert_keyframe(document: Document, layer_id: int, keyframe: Keyframe) -> Do
             )
         if len(keyframe.marks) != len(layer.labels):
             raise EditError("A keyframe must place every mark of its layer.")
-        return replace(layer, keyframes=_by_frame((*layer.keyframes, keyframe)))
+        new = keyframe
+        span, t = layer.span_at(new.frame)
+        if 0 < t < 1:
+            before, after = layer.keyframes[span].easing.split(t)
+            layer, new = _with_key(layer, span, easing=before), replace(new, easing=after)
+        keyframes = sorted((*layer.keyframes, new), key=lambda key: key.frame)
+        return replace(layer, keyframes=tuple(keyframes))
 
     return _on_layer(document, layer_id, edit)
 
@@ -308,7 +318,3 @@ def _on_ring(
 def _wrapped(at: float, n: int) -> float:
     at %= n
     return at if at < n else 0.0  # just below zero, the remainder rounds up to n
-
-
-def _by_frame(keyframes: Sequence[Keyframe]) -> tuple[Keyframe, ...]:
-    return tuple(sorted(keyframes, key=lambda key: key.frame))

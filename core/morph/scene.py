@@ -98,13 +98,12 @@ def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> Keyframe:
         nearest_place(rest, source.outline.position(mark))[0] for mark in source.marks
     )  # same vertices, so a place at rest is the place in the in-between
     outline = Outline.polygon(*(positions[ring] for ring in morph.rings))
-    return Keyframe(frame, outline, marks, source.easing)
+    return Keyframe(frame, outline, marks)
 
 
 def _shown(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[int, float, Morph | None]:
     """Return the span at a frame, s in it, and its solution; None where a key itself shows."""
-    index, t = layer.span_at(frame)
-    s = layer.keyframes[index].easing(t)
+    index, s = layer.progress_at(frame)
     between = s not in (0.0, 1.0)  # an easing may also overshoot
     return index, s, morph_of(span_of(layer, index)) if between else None
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.model import Easing
-from core.model.easing import EASE_IN, EASE_OUT, HOLD, LINEAR, PRESETS
+from core.model.easing import EASE_IN, EASE_OUT, HOLD, LINEAR, PRESETS, WILD
 from tests.core.model.shapes import easings
 
 times = st.floats(0, 1)
@@ -65,3 +65,52 @@ def test_an_easing_may_overshoot_between_its_ends() -> None:
 
 def test_presets_have_distinct_names_and_curves() -> None:
     assert len(set(PRESETS.values())) == len(PRESETS)
+
+
+@given(easings(), st.floats(0.01, 0.99), times)
+def test_the_parts_of_a_split_run_one_after_the_other_are_the_whole(
+    easing: Easing, at: float, t: float
+) -> None:
+    early, late = sorted((easing.x1, easing.x2))
+    easing = replace(easing, x1=early, x2=late)
+    before, after = easing.split(at)
+    s = easing(at)
+    parts = s * before(t / at) if t < at else s + (1 - s) * after((t - at) / (1 - at))
+    # as above, x may be too flat for time to tell parameters apart
+    assert parts == pytest.approx(easing(t), abs=1e-4)
+
+
+@given(
+    easings(),
+    st.floats(-2, 3),
+    st.floats(-2, 3),
+    st.floats(0, 1, exclude_min=True, exclude_max=True),
+)
+def test_the_parts_of_any_split_are_timing_curves(
+    easing: Easing, y1: float, y2: float, at: float
+) -> None:
+    for part in replace(easing, y1=y1, y2=y2).split(at):
+        assert 0 <= part.x1 <= 1
+        assert 0 <= part.x2 <= 1
+        assert abs(part.y1) <= WILD + 1
+        assert abs(part.y2) <= WILD + 1
+
+
+def test_an_overshoot_that_is_split_overshoots_as_before() -> None:
+    whole = Easing(0.3, 1.8, 0.6, 1.0)
+    before, after = whole.split(0.25)
+    s = whole(0.25)
+    for t in (0.3, 0.5, 0.9):
+        assert s + (1 - s) * after((t - 0.25) / 0.75) == pytest.approx(whole(t))
+    assert before(0.5) == pytest.approx(whole(0.125) / s)
+
+
+def test_a_curve_split_where_it_has_not_risen_goes_on_evenly() -> None:
+    flat = Easing(1.0, 0.0, 1.0, 0.0)
+    assert flat.split(1e-4)[0] == LINEAR
+    assert flat.split(1e-4)[1](0.5) == pytest.approx(flat(0.50005))
+
+
+@pytest.mark.parametrize("easing", [HOLD, LINEAR])
+def test_the_parts_of_a_hold_hold_and_those_of_an_even_motion_are_even(easing: Easing) -> None:
+    assert easing.split(0.3) == (easing, easing)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from core.errors import EditError
 from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Style, edits
-from tests.core.model.shapes import documents, layers, outlines, places
+from tests.core.model.shapes import documents, easings, layers, outlines, places
 
 Call = tuple[Callable[..., Document], tuple[Any, ...]]
 TRIANGLE = Outline.polygon([[0, 0], [10, 0], [0, 10]])
@@ -144,7 +144,33 @@ def test_keyframes_stay_in_order_one_a_frame(layer: Layer, frame: int) -> None:
     else:
         frames = [key.frame for key in after.keyframes]
         assert frames == sorted({*frames})
-        assert after.keyframes[after.key_at(frame) or 0] is key
+        assert after.keyframes[after.key_at(frame) or 0].outline is key.outline
+
+
+@given(easings(), st.integers(1, 23), st.floats(0, 24))
+def test_a_keyframe_put_into_a_span_leaves_progress_as_it_was(
+    easing: Easing, at: int, frame: float
+) -> None:
+    easing = replace(easing, x1=min(easing.x1, easing.x2), x2=max(easing.x1, easing.x2))
+    layer = Layer(1, "", (Keyframe(0, TRIANGLE, (), easing), Keyframe(24, TRIANGLE)))
+    after = edits.insert_keyframe(Document((layer,)), 1, Keyframe(at, TRIANGLE)).layers[0]
+    key = layer.progress_at(at)[1]
+    span, s = after.progress_at(frame)
+    whole = key + (1 - key) * s if span else key * s
+    assert whole == pytest.approx(layer.progress_at(frame)[1], abs=1e-4)
+
+
+def test_a_keyframe_put_before_or_after_all_others_changes_no_timing() -> None:
+    slow, fast = Easing(0.5, 0, 1, 1), Easing(0, 0, 0.5, 1)
+    layer = Layer(1, "", (Keyframe(10, TRIANGLE, (), slow), Keyframe(20, TRIANGLE)))
+    for frame in (5, 25):
+        after = edits.insert_keyframe(
+            Document((layer,)), 1, Keyframe(frame, TRIANGLE, (), fast)
+        ).layers[0]
+        key = after.key_at(frame)
+        assert key is not None
+        assert after.keyframes[key].easing == fast
+        assert tuple(k for k in after.keyframes if k.frame != frame) == layer.keyframes
 
 
 @given(layers(), st.integers(-30, 230), st.data())

@@ -56,3 +56,15 @@ def test_a_key_made_between_has_the_marks_where_they_travelled(morph: Morph):
 def test_a_span_without_a_solution_shows_the_nearest_key(frame: int, key: int):
     [ring] = layer_rings(layer(), frame, unsolved)
     assert np.array_equal(ring, layer().keyframes[key].outline.rings[0].points)
+
+
+@pytest.mark.parametrize("easing", [HOLD, Easing(0.6, 0, 0.9, 0.4), Easing(0.2, 1.4, 0.6, 1)])
+def test_a_rigid_motion_is_the_same_with_a_key_made_of_an_in_between(easing: Easing, morph: Morph):
+    before = layer(easing)
+    key = keyframe_at(before, 5, lambda span: morph)
+    after = insert_keyframe(Document((before,)), 1, key).layers[0]
+    for frame in (2, 4, 5, 8, 10):
+        [was] = layer_rings(before, frame, lambda span: morph)
+        [now] = layer_rings(after, frame, solve_span)
+        away = np.hypot(*(was[:, None] - now).transpose(2, 0, 1)).min(axis=1)
+        assert away.max() < 0.02 * np.ptp(was)
