@@ -13,8 +13,8 @@ from app.panels.section import Section
 from app.workspace import Workspace
 from core.model import Document
 from core.model.edits import update_layer
+from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
 
-LEAST_DENSITY, MOST_DENSITY = 16, 2000
 SOFTEST, STIFFEST = 0.001, 10_000.0
 
 
@@ -25,7 +25,11 @@ class MappingSection(Section):
         super().__init__(self.tr("Mapping"), workspace, parent)
         self.method = Choice(
             self.tr("Method"),
-            [(self.tr("Rigid (ARAP)"), "arap"), (self.tr("Linear"), "linear")],
+            [
+                (self.tr("As rigid as possible"), "arap"),
+                (self.tr("Rigid, plain form"), "plain arap"),
+                (self.tr("Straight paths"), "linear"),
+            ],
         )
         self.method.setToolTip(
             self.tr("How in-betweens are made: as rigidly as possible, or on straight paths")

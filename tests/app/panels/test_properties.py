@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import get_args
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -29,6 +30,7 @@ from app.workspace import Workspace
 from core.model import Document, Easing
 from core.model.easing import EASE_IN, HOLD, PRESETS
 from core.model.edits import move_nodes, remove_layer, update_layer
+from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Method, Recipe
 from tests.app.panels.conftest import a_layer
 
 Key = Qt.Key
@@ -87,7 +89,7 @@ EDITS: dict[str, Callable[[PropertiesPanel], None]] = {
     "stroke width": lambda p: type_in(p.layer.stroke_width, "12.5"),
     "frame": lambda p: type_in(p.keyframe.frame, "20"),
     "easing": lambda p: choose(p.span.preset, "Hold"),
-    "method": lambda p: choose(p.mapping.method, "Linear"),
+    "method": lambda p: choose(p.mapping.method, "Straight paths"),
     "density": lambda p: type_in(p.mapping.density, "256"),
     "material": lambda p: choose(p.mapping.material, "St. Venant–Kirchhoff"),
     "width": lambda p: type_in(p.document.width_, "1920"),
@@ -125,6 +127,19 @@ def test_the_fields_set_what_they_name(panel: PropertiesPanel, workspace: Worksp
     assert (recipe.material, recipe.mu, recipe.lam) == ("st-venant-kirchhoff", 2.5, 0.25)
     assert (document.size, document.fps) == ((1920, 1080), 30)
     assert document.layer(2) == a_layer(2, 1, 9)
+
+
+@pytest.mark.parametrize("density", [LEAST_DENSITY, 5000, MOST_DENSITY])
+@pytest.mark.parametrize("method", get_args(Method))
+def test_every_recipe_is_shown_as_it_is(
+    panel: PropertiesPanel, workspace: Workspace, density: int, method: Method
+) -> None:
+    recipe = Recipe(method, density)
+    workspace.session.apply("Import", update_layer, 1, recipe=recipe)
+    assert panel.mapping.density.value() == density
+    assert panel.mapping.method.currentText()
+    choose(panel.mapping.method, panel.mapping.method.currentText())
+    assert layer(workspace).recipe == recipe
 
 
 def test_the_fields_follow_undo_and_the_selection(
