@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from PySide6.QtCore import QObject, Qt, QThread, Signal, Slot
+from PySide6.QtCore import QObject, Qt, QThread, QTimer, Signal, Slot
 
 from core.errors import Cancelled, MorphError
 from core.progress import Progress
@@ -18,6 +18,8 @@ Work = Callable[[Progress], Any]
 
 REPORT_EVERY = 0.03
 """Seconds between two progress reports of the same stage."""
+SHARE_EVERY, SHARE = 12, 0.004
+"""Milliseconds between the turns that the UI thread gives to the work, and seconds of each."""
 STACK = 16 * 2**20
 """Bytes: the mesher recurses deeper than the default stack of a thread allows on some systems."""
 
@@ -28,7 +30,7 @@ class Worker(QObject):
     """Runs work off the UI thread. It belongs to the UI thread, and emits only there."""
 
     done = Signal(int, object)
-    """Job number, and what the work returned or the MorphError that it raised."""
+    """Job number, and what the work returned, or the MorphError or Cancelled that it raised."""
     progressed = Signal(float, str)
     """Fraction and stage of the work under way."""
 
@@ -46,6 +48,8 @@ class Worker(QObject):
         self._runner.done.connect(self._on_done, Qt.ConnectionType.QueuedConnection)
         self._runner.progressed.connect(self._on_progressed, Qt.ConnectionType.QueuedConnection)
         self._thread.start()
+        self._turns = QTimer(self, interval=SHARE_EVERY)
+        self._turns.timeout.connect(_give_way)
 
     @property
     def busy(self) -> bool:
@@ -62,6 +66,7 @@ class Worker(QObject):
         assert not self.busy, "one piece of work at a time"
         self._number += 1
         self._job = _Job(self._number, work)
+        self._turns.start()
         self._posted.emit(self._job)
         return self._number
 
@@ -75,6 +80,7 @@ class Worker(QObject):
         if self._runner is None:
             return
         self.cancel()
+        self._turns.stop()
         self._runner.done.disconnect(self._on_done)
         self._runner.progressed.disconnect(self._on_progressed)
         self._thread.quit()
@@ -84,12 +90,18 @@ class Worker(QObject):
     @Slot(int, object)
     def _on_done(self, number: int, outcome: object) -> None:
         self._job = None
+        self._turns.stop()
         self.done.emit(number, outcome)
 
     @Slot(float, str)
     def _on_progressed(self, fraction: float, stage: str) -> None:
         if self._job and not self._job.stop.is_set():
             self.progressed.emit(fraction, stage)
+
+
+def _give_way() -> None:
+    """Let go of the interpreter lock: loops that wait in C++ (QTest.qWait is one) may hold it."""
+    time.sleep(SHARE)
 
 
 class _Job:
@@ -121,8 +133,8 @@ class _Runner(QObject):
         try:
             report(0.0, "")
             outcome = job.work(report)
-        except MorphError as error:
-            outcome = error
+        except (Cancelled, MorphError) as reason:
+            outcome = reason
         except Exception as fault:
             log.exception("Work in the background failed")
             outcome = MorphError(
