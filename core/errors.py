@@ -5,8 +5,9 @@ MorphError
 ├── MarkError      marks that contradict each other or the outlines
 ├── SolveError     a mapping or an in-between that could not be computed
 ├── FileError      a file that cannot be read or written
-├── EditError      an edit that the document does not allow
-└── Cancelled      the caller asked to stop; nothing is wrong
+└── EditError      an edit that the document does not allow
+
+Cancelled          the caller asked to stop; nothing is wrong, so it is none of these
 
 Each error says *what* is wrong, *where*, and gives a *hint* how to mend it. The three parts stay
 apart so that a window can highlight the place and a terminal can print one line.
@@ -68,8 +69,5 @@ class EditError(MorphError):
     """An edit is not possible on this document."""
 
 
-class Cancelled(MorphError):  # noqa: N818 - a request that was met, not an error
+class Cancelled(Exception):  # noqa: N818 - a request that was met, not an error
     """The work was stopped on request."""
-
-    def __init__(self) -> None:
-        super().__init__("Cancelled.")

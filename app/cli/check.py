@@ -77,7 +77,7 @@ def _entries(document: Document, progress: Progress) -> list[Entry]:
 
 
 def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
-    from core.errors import Cancelled, MorphError
+    from core.errors import MorphError
     from core.morph.scene import solve_span, span_of
     from core.morph.soundness import check_span
 
@@ -87,8 +87,6 @@ def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
     start = perf_counter()
     try:
         morph = solve_span(span, progress)
-    except Cancelled:
-        raise
     except MorphError as error:
         return entry | {"error": str(error)}
     solved = perf_counter() - start

@@ -84,9 +84,9 @@ class ExportDialog(QDialog):
         self.bar.setValue(round(1000 * fraction))
         self.stage.setText(stage)
 
-    def _on_done(self, _number: int, outcome: list[Path] | MorphError) -> None:
+    def _on_done(self, _number: int, outcome: list[Path] | MorphError | Cancelled) -> None:
         self._end()
-        if isinstance(outcome, MorphError):
+        if isinstance(outcome, MorphError | Cancelled):
             self._show_form("" if isinstance(outcome, Cancelled) else str(outcome))
             return
         self._written = outcome

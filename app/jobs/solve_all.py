@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from core.errors import Cancelled, MorphError
+from core.errors import MorphError
 from core.model import Document, Layer
 from core.morph.scene import Span, solve_span, span_of
 from core.progress import Progress, silent
@@ -39,8 +39,6 @@ def solve_all(
 
         try:
             solved[span] = solve_span(span, report)
-        except Cancelled:
-            raise
         except MorphError as error:
             first, last = (key.frame for key in layer.keyframes[index : index + 2])
             what = f"Layer “{layer.name}”, frames {first} to {last}: {error.what}"

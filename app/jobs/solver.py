@@ -204,7 +204,7 @@ class Solver(QObject):
         if self._job and (key is None or self._spans[key] != self._job.span):
             self._worker.cancel()
 
-    def _on_done(self, number: int, outcome: Morph | MorphError) -> None:
+    def _on_done(self, number: int, outcome: Morph | MorphError | Cancelled) -> None:
         if self._job is None or number != self._job.number:
             return
         job, self._job = self._job, None
