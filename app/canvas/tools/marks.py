@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from PySide6.QtGui import QPainter
 
 from app.canvas.ink import draw_line, draw_ring
 from app.canvas.marks_overlay import mark_at
+from app.canvas.moment import Role
 from app.canvas.pins import pins_on_key
 from app.canvas.pointer import REACH, Pointer
 from app.canvas.tools import edits as composed
@@ -23,7 +25,7 @@ from core.geometry.polyline import points_at
 from core.model import Layer, Outline, RingPoint, edits
 from core.model.layer import mark_labels
 from core.model.outline import Array
-from core.morph.suggest import snap
+from core.morph.suggest import mate, snap
 
 if TYPE_CHECKING:
     from app.canvas.pane import Pane
@@ -66,25 +68,29 @@ class MarksTool(Tool):
         super().__init__(workspace, parent)
         self._pane: Pane | None = None
         self._mark: int | None = None
-        self._places: list[RingPoint] = []
-        """Where a click would put a mark on each keyframe."""
+        self._places: dict[int, RingPoint] = {}
+        """Where a click would put a mark, by keyframe: the one under the mouse and its mate's."""
+        self._thread = ThreadPoolExecutor(1, "mates")
+        self._matched: object = None
+        """The outlines whose mates are being looked for, or are at hand."""
+        self._matching: Future[RingPoint] | None = None
         self._placed = ""
         """The letter that was placed last."""
 
     def hover(self, pointer: Pointer) -> None:
         """Find the mark under the mouse, or where a click would place one."""
-        self._pane, self._mark, self._places = pointer.pane, self._mark_at(pointer), []
+        self._pane, self._mark, self._places = pointer.pane, self._mark_at(pointer), {}
         layer, key = self.layer, pointer.pane.key
         if self._mark is None and layer is not None and key is not None:
             place = self._place_at(pointer)
-            self._places = composed.mates(layer, {key: place}) if place else []
+            self._places = self._proposed(layer, key, place) if place else {}
         taken = self._mark is not None or self._places
         self.cursor = Qt.CursorShape.PointingHandCursor if taken else Qt.CursorShape.ArrowCursor
 
     def leave(self) -> None:
         """Forget the hover."""
         super().leave()
-        self._pane, self._mark, self._places = None, None, []
+        self._pane, self._mark, self._places = None, None, {}
 
     def grab(self, pointer: Pointer) -> Gesture | None:
         """Select the mark under the mouse and take it."""
@@ -145,8 +151,10 @@ class MarksTool(Tool):
                 text = self.tr(
                     "Mark {letter} is placed: drag it on the other outline if its mate is not right"
                 )
-        elif self._places and len(layer.keyframes) > 1:
+        elif len(self._places) > 1:
             text = self.tr("Click to place mark {letter}; its mate is proposed as shown")
+        elif self._places and len(layer.keyframes) > 1:
+            text = self.tr("Click to place mark {letter}; its mate is proposed too")
         elif self._pane is not None and self._pane.key is None:
             text = self.tr("Marks go on the source or the target outline, not in between")
         else:
@@ -156,15 +164,15 @@ class MarksTool(Tool):
     @property
     def seen(self) -> object:
         """What is under the mouse."""
-        return self._pane, self._mark, tuple(self._places)
+        return self._pane, self._mark, tuple(self._places.items())
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
-        """Paint where a click would place a mark, here and on the other keyframes."""
+        """Paint where a click would place a mark, here and on the other keyframe."""
         keyframe, key = pane.keyframe, pane.key
         if keyframe is None or key is None:
             return
         self.paint_key(painter, pane)
-        if self._pane is not None and key < len(self._places):
+        if self._pane is not None and key in self._places:
             self._paint_ghost(painter, pane, keyframe.outline, self._places[key])
 
     # -- helpers of the mouse ------------------------------------------------------------------
@@ -184,6 +192,25 @@ class MarksTool(Tool):
         if distance > NEAR * pointer.reach:
             return None
         return place if pointer.shift else snap(keyframe.outline, place, pointer.reach)
+
+    def _proposed(self, layer: Layer, key: int, place: RingPoint) -> dict[int, RingPoint]:
+        """Return a place with its mate on the other keyframe in view, once that is at hand.
+
+        To match outlines takes too long while the mouse moves; the next move shows what came of it.
+        """
+        assert self._pane is not None
+        other = key + {Role.SOURCE: 1, Role.TARGET: -1}.get(self._pane.role, 0)
+        if other == key or not 0 <= other < len(layer.keyframes):
+            return {key: place}
+        here, there = layer.keyframes[key], layer.keyframes[other]
+        pairs = tuple(zip(here.marks, there.marks, strict=True))
+        wanted = here.outline, there.outline, pairs, place.ring
+        if self._matching is None or (self._matching.done() and self._matched != wanted):
+            self._matched = wanted
+            self._matching = self._thread.submit(mate, here.outline, there.outline, place, pairs)
+        if self._matched != wanted or not self._matching.done():
+            return {key: place}
+        return {key: place, other: mate(here.outline, there.outline, place, pairs)}
 
     def _paint_ghost(
         self, painter: QPainter, pane: Pane, outline: Outline, place: RingPoint

@@ -1,16 +1,20 @@
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
 
 from app.canvas.marks_overlay import letter_centres
 from app.canvas.moment import Role
 from app.canvas.pins import pins_on_key
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.morph import suggest
+from core.morph.marks.rings import match_rings
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
 
 SOURCE, BETWEEN, TARGET = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET
@@ -151,6 +155,32 @@ def test_hovering_changes_nothing_but_the_hint(hand: Hand):
     hand.move(SOURCE, SQUARE[0])
     assert "Drag mark a" in hints[-1]
     assert hand.document is before
+
+
+def test_hovering_shows_the_mate_and_never_waits_for_it(hand: Hand, qtbot: QtBot, monkeypatch):
+    gate, threads = threading.Event(), []
+
+    def match(*args):
+        threads.append(threading.get_ident())
+        gate.wait(10)
+        return match_rings(*args)
+
+    monkeypatch.setattr(suggest, "match_rings", match)
+    suggest._match.cache_clear()
+    hints: list[str] = []
+    hand.canvas.hint_changed.connect(hints.append)
+    hand.move(SOURCE, SQUARE[1])
+    assert "place mark c" in hints[-1]
+    assert "as shown" not in hints[-1]
+    gate.set()
+
+    def is_shown() -> bool:
+        hand.move(SOURCE, SQUARE[1])
+        return "its mate is proposed as shown" in hints[-1]
+
+    qtbot.waitUntil(is_shown)
+    assert threads
+    assert threading.get_ident() not in threads
 
 
 def test_letters_stand_off_the_shape_and_off_its_holes(open_canvas):
