@@ -60,6 +60,8 @@ def places_of(where: Where, keyframe: Keyframe) -> Array:
         points.append(np.array(where.point))
     elif where.ring is not None and where.ring < len(outline.rings):
         nodes = outline.rings[where.ring].points
-        whole = where.node is None
-        points.append(nodes.mean(axis=0) if whole else nodes[where.node % len(nodes)])
+        if where.node is None:
+            points.append(nodes.mean(axis=0))
+        elif 0 <= where.node < len(nodes):
+            points.append(nodes[where.node])
     return np.array(points).reshape(-1, 2)

@@ -288,8 +288,9 @@ def test_marks_and_nodes_that_an_error_names_are_ringed(open_canvas, where: Wher
     assert count(image(hand.pane(SOURCE)), colours().error) > 50
 
 
-def test_an_error_without_a_place_rings_nothing(hand: Hand):
-    hand.canvas.show_error(OutlineError("Somewhere."))
+@pytest.mark.parametrize("where", [Where(), Where(ring=0, node=7), Where(ring=5, node=1)])
+def test_an_error_without_a_place_that_is_drawn_rings_nothing(hand: Hand, where: Where):
+    hand.canvas.show_error(OutlineError("Somewhere.", where=where))
     QApplication.processEvents()
     assert count(image(hand.pane(SOURCE)), colours().error) == 0
 
