@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from core.geometry.polyline import cross
 from core.geometry.triangulation import Indices, triangulate_polygon, unique_edges
 from core.model.outline import Array
+from core.progress import Watch, unwatched
 
 TURNS = 6
 MOST_CORNERS = 120
@@ -34,15 +35,17 @@ class ChordSets:
     target: Indices
 
 
-def chord_sets(source: Array, target: Array) -> ChordSets:
+def chord_sets(source: Array, target: Array, watch: Watch = unwatched) -> ChordSets:
     """Triangulate two polygons (b, 2) without inner points, sharing as many diagonals as found.
 
     First they take turns: what one has and the other can have, the other must have. Then diagonals
-    that neither has, but both can have, are put where most others cross.
+    that neither has, but both can have, are put where most others cross. ``watch(stage)`` is called
+    before every round and may raise ``Cancelled``.
     """
     shared = _negotiated(source, target, np.empty((0, 2), np.int64))
     chords = _with_shared(source, target, shared)
     while len(fresh := _best_new(source, target, chords)):
+        watch("joint mesh")
         shared = _negotiated(source, target, np.concatenate([chords.shared, fresh]))
         chords = _with_shared(source, target, shared)
     return chords

@@ -17,6 +17,7 @@ from core.morph.boundary import BoundaryPair, MatchedRing, correspond
 from core.morph.marks.holes import RingPair, paired_holes
 from core.morph.marks.rings import RingMatch, match_rings
 from core.morph.shift import SAMPLES, best_shift
+from core.progress import Watch, unwatched
 
 OFF_OUTLINE = 1e-3
 """How far a repair may leave a mark from the outline, as a fraction of its size."""
@@ -75,14 +76,16 @@ def correspondences(
     marks: Sequence[PlacedMark],
     labels: Sequence[str],
     density: int,
+    watch: Watch = unwatched,
 ) -> Iterator[list[BoundaryPair]]:
     """Yield boundaries that may belong together, ring by ring, the most likely first.
 
     With marks on the exterior they decide, and there is just one. The edges are split to the
-    exteriors' perimeters over ``density``.
+    exteriors' perimeters over ``density``. ``watch(stage)`` is called before every ring is matched
+    and may raise ``Cancelled``.
     """
     spacing = tuple(float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
-    for matches in _matches(source, target, marks):
+    for matches in _matches(source, target, marks, watch):
         try:
             yield [correspond(match, (spacing[0], spacing[1]), labels) for match in matches]
         except MarkError:
@@ -91,21 +94,22 @@ def correspondences(
 
 
 def _matches(
-    source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]
+    source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark], watch: Watch
 ) -> Iterator[list[MatchedRing]]:
     exterior = [mark for mark in marks if mark.rings == (0, 0)]
     fixed = [mark.lengths for mark in exterior]
     proposals: list[RingMatch] = []
     if not exterior or len(source.rings) > 1:
+        watch("matching")
         found = match_rings(source.rings[0], target.rings[0], fixed)
         proposals = [match for match in found if not match.mirrored]
     if exterior:
         first = proposals[0] if proposals else None
-        yield [_marked(source, target, exterior), *_holes(source, target, marks, first)]
+        yield [_marked(source, target, exterior), *_holes(source, target, marks, first, watch)]
         return
     for match in proposals:
-        yield [_proposed(source, target, match), *_holes(source, target, marks, match)]
-    yield [_shifted(source, target, RingPair(0, 0)), *_holes(source, target, marks, None)]
+        yield [_proposed(source, target, match), *_holes(source, target, marks, match, watch)]
+    yield [_shifted(source, target, RingPair(0, 0)), *_holes(source, target, marks, None, watch)]
 
 
 def _holes(
@@ -113,6 +117,7 @@ def _holes(
     target: CleanOutline,
     marks: Sequence[PlacedMark],
     exterior: RingMatch | None,
+    watch: Watch,
 ) -> list[MatchedRing]:
     """Match the holes, each by its marks, or else by what the exterior's match says of it."""
     known = {mark.rings[0]: mark.rings[1] for mark in marks if mark.rings[0] > 0}
@@ -127,6 +132,7 @@ def _holes(
         if here:
             matched.append(_marked(source, target, here))
             continue
+        watch("matching")
         a, b = source.rings[pair.source], target.rings[pair.target]
         found = [match for match in match_rings(a, b, (), pair.rotation) if not match.mirrored]
         matched.append(

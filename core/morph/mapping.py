@@ -101,8 +101,7 @@ def mended_map(
     log = _Log(direct.stages)
     mesh, image = direct.mesh, direct.target
     if not direct.sound:
-        watch("joint mesh")
-        mesh, image = coarsen(*compatible_mesh(source, target), watch)
+        mesh, image = coarsen(*compatible_mesh(source, target, watch), watch)
         log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
     mesh, image = improve(mesh, image, _max_area(recipe), watch, rounds=1 if direct.sound else 5)
     settled = settle(mesh, image, recipe, watch)

@@ -20,23 +20,29 @@ from core.geometry.triangulation import Indices, Mesh
 from core.model.outline import Array
 from core.morph.bridges import cut_open
 from core.morph.chords import chord_sets, crossing
+from core.progress import Watch, unwatched
 
 MOST_SIDES = 6
 """Two triangles have at most a hexagon in common."""
 
 
-def compatible_mesh(source: Sequence[Array], target: Sequence[Array]) -> tuple[Mesh, Array]:
+def compatible_mesh(
+    source: Sequence[Array], target: Sequence[Array], watch: Watch = unwatched
+) -> tuple[Mesh, Array]:
     """Return a mesh of the source, and target positions (n, 2) of its vertices; every triangle is
     positive in both.
 
     The rings (k, 2) of both, exterior first, correspond vertex by vertex; exteriors run
     counter-clockwise, holes clockwise, around about unit area. Their vertices come first in the
-    mesh, and its border edges are theirs.
+    mesh, and its border edges are theirs. ``watch(stage)`` is called between steps and may raise
+    ``Cancelled``.
     """
+    watch("joint mesh")
     cut = cut_open(source, target)
     walk, b = cut.walk, len(cut.walk)
     ours, theirs = cut.source[walk], cut.target[walk]
-    chords = chord_sets(ours, theirs)
+    chords = chord_sets(ours, theirs, watch)
+    watch("joint mesh")
     pairs = np.argwhere(crossing(chords.source, chords.target))
     along_source = _Crossed.of(chords.source, pairs[:, 0], chords.target[pairs[:, 1]], b)
     along_target = _Crossed.of(chords.target, pairs[:, 1], chords.source[pairs[:, 0]], b)

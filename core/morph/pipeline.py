@@ -62,7 +62,7 @@ def solve_outlines(
     _check_rings(*ends)
     placed = place_marks((source, target), ends, marks, labels)
     clock.start("mapping", 0.1)
-    boundaries = correspondences(*ends, placed, labels, recipe.density)
+    boundaries = correspondences(*ends, placed, labels, recipe.density, clock.watch)
     here, there = frames = _Frame.of(ends[0]), _Frame.of(ends[1])
     boundary, found, tried = _best(boundaries, frames, recipe, clock.watch)
     clock.start("in-between", 0.9)

@@ -13,7 +13,6 @@ from core.model.outline import Array, Outline, RingPoint
 from core.morph.marks.chain import Pair
 from core.morph.marks.holes import RingPair, paired_holes
 from core.morph.marks.rings import RingMatch, match_rings
-from core.morph.shift import best_shift as best_shift
 
 Marks = Sequence[tuple[RingPoint, RingPoint]]
 

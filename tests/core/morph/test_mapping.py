@@ -1,0 +1,79 @@
+"""The direct map, and what mends it."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from core.errors import Cancelled
+from core.model import Recipe
+from core.model.outline import Array
+from core.morph.mapping import POOR, Map, direct_map, mended_map
+from core.morph.overlay import compatible_mesh
+from core.morph.quality import folds
+from core.progress import unwatched
+from tests.core.morph.polygons import comb, disc, spiral, square
+
+COUNT = 72
+RECIPE = Recipe(density=64)
+HARD = {
+    "a disc and a comb": (disc(COUNT), comb(4, COUNT)),
+    "a comb and a spiral": (comb(4, COUNT), spiral(1.0, COUNT)),
+    "two spirals out of step": (spiral(1.0, COUNT), np.roll(spiral(2.0, COUNT), 20, axis=0)),
+}
+
+
+@cache
+def direct(name: str) -> Map:
+    source, target = HARD[name]
+    return direct_map([source], [target], RECIPE, unwatched)
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_a_mended_map_has_no_fold_where_the_direct_one_has(name: str) -> None:
+    source, target = HARD[name]
+    found = direct(name)
+    assert not found.sound
+    mended = mended_map(found, [source], [target], RECIPE, unwatched)
+    assert mended.sound
+    assert not len(folds(mended.mesh.points, mended.mesh.triangles))
+    assert not len(folds(mended.target, mended.mesh.triangles))
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_the_boundary_goes_exactly_where_it_is_told(name: str) -> None:
+    source, target = HARD[name]
+    found = direct(name)
+    for mapped in (found, mended_map(found, [source], [target], RECIPE, unwatched)):
+        b = mapped.mesh.boundary_size
+        assert np.allclose(mapped.mesh.points[:b], source, atol=1e-9)
+        assert np.allclose(mapped.target[:b], target, atol=1e-9)
+
+
+def test_a_good_map_is_left_as_it_is() -> None:
+    ends: tuple[list[Array], list[Array]] = [disc(COUNT)], [square(COUNT)]
+    found = direct_map(*ends, RECIPE, unwatched)
+    assert found.distortion.max() <= POOR
+    assert mended_map(found, *ends, RECIPE, unwatched) is found
+
+
+def test_an_isometry_has_a_mean_distortion_of_one() -> None:
+    found = direct_map([disc(COUNT)], [disc(COUNT) + np.array([3, 1])], RECIPE, unwatched)
+    assert found.mean == pytest.approx(1)
+
+
+@pytest.mark.parametrize("step", [0, 1])
+def test_making_a_joint_mesh_can_be_stopped_between_its_steps(step: int) -> None:
+    source, target = HARD["a disc and a comb"]
+    seen: list[str] = []
+
+    def watch(stage: str) -> None:
+        seen.append(stage)
+        if len(seen) > step:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        compatible_mesh([source], [target], watch)
+    assert len(seen) == step + 1
