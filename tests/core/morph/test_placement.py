@@ -5,26 +5,19 @@ import pytest
 
 from core.errors import Cancelled
 from core.fem.elements import Elements
-from core.fem.newton import FreeVertices
 from core.geometry.triangulation import Mesh, split_chords, triangulate
 from core.model import Recipe
-from core.morph.placement import folded, harmonic, place
-from core.morph.untangle import untangle
+from core.morph.placement import harmonic, place
+from tests.core.morph.polygons import at_unit_area
 from tests.core.shapes import ellipse, limb, rotation
 
 
-def unit(points):
-    from core.geometry.polyline import signed_area
-
-    return (points - points.mean(axis=0)) / np.sqrt(signed_area(points))
-
-
 def limb_mesh(bend: float) -> Mesh:
-    return split_chords(triangulate([unit(limb(bend))], 0.004))
+    return split_chords(triangulate([at_unit_area(limb(bend))], 0.004))
 
 
 def test_a_harmonic_map_of_an_affine_boundary_is_that_affine_map():
-    mesh = triangulate([unit(ellipse(60))], 0.01)
+    mesh = triangulate([at_unit_area(ellipse(60))], 0.01)
     A = np.array([[1.3, 0.4], [-0.2, 0.8]])
     x = harmonic(Elements.of(mesh.points, mesh.triangles), mesh.points[: mesh.boundary_size] @ A.T)
     assert np.allclose(x, mesh.points @ A.T)
@@ -38,20 +31,8 @@ def test_a_turned_boundary_turns_the_inside(material):
     assert np.allclose(placed.target, turned, atol=1e-6)
 
 
-def test_untangling_unfolds_what_the_harmonic_map_folds():
-    mesh = limb_mesh(0.0)
-    boundary = unit(np.roll(limb(3.0), 8, axis=0))
-    elements = Elements.of(mesh.points, mesh.triangles)
-    start = harmonic(elements, boundary)
-    assert folded(elements, start) > 0
-    free = FreeVertices(elements, np.arange(mesh.boundary_size, len(mesh.points)))
-    x = untangle(free, start, lambda energy, x: None)
-    assert folded(elements, x) == 0
-    assert np.array_equal(x[: mesh.boundary_size], boundary)
-
-
 def test_the_energy_of_the_material_never_rises():
-    placed = place(limb_mesh(0.0), unit(limb(3.0)), Recipe())
+    placed = place(limb_mesh(0.0), at_unit_area(limb(3.0)), Recipe())
     energies = [i.energy for i in placed.iterations if i.stage == "symmetric-dirichlet"]
     assert len(energies) > 1
     assert all(b <= a for a, b in itertools.pairwise(energies))
@@ -62,7 +43,7 @@ def test_mu_and_lambda_change_where_the_inside_goes():
     ends = [
         place(
             limb_mesh(0.0),
-            unit(limb(2.0)),
+            at_unit_area(limb(2.0)),
             Recipe(material="st-venant-kirchhoff", mu=1.0, lam=lam),
         ).target
         for lam in (0.0, 50.0)
@@ -79,5 +60,5 @@ def test_it_can_be_stopped_between_steps():
             raise Cancelled
 
     with pytest.raises(Cancelled):
-        place(limb_mesh(0.0), unit(limb(5.5)), Recipe(), watch)
+        place(limb_mesh(0.0), at_unit_area(limb(5.5)), Recipe(), watch)
     assert len(seen) == 3
