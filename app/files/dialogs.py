@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 from PySide6.QtCore import QCoreApplication, QLocale, QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from app.document.autosave import Leftover
+
+Answer = TypeVar("Answer")
 
 
 def ask_open(parent: QWidget, title: str, folder: Path, filters: str) -> Path | None:
@@ -32,46 +34,38 @@ def ask_folder(parent: QWidget, title: str, folder: Path) -> Path | None:
 
 def ask_unsaved(parent: QWidget, name: str) -> Literal["save", "discard", "cancel"]:
     """Ask what becomes of unsaved work."""
-    box = _box(parent, _tr("Save the changes to “{name}”?").format(name=name))
-    box.setInformativeText(_tr("They are lost if you do not save them."))
-    save = box.addButton(_tr("&Save"), QMessageBox.ButtonRole.AcceptRole)
-    discard = box.addButton(_tr("&Discard"), QMessageBox.ButtonRole.DestructiveRole)
-    cancel = box.addButton(_tr("&Cancel"), QMessageBox.ButtonRole.RejectRole)
-    box.setDefaultButton(save)
-    box.setEscapeButton(cancel)
-    box.exec()
-    clicked = box.clickedButton()
-    return "save" if clicked is save else "discard" if clicked is discard else "cancel"
+    return _ask(
+        parent,
+        _tr("Save the changes to “{name}”?").format(name=name),
+        _tr("They are lost if you do not save them."),
+        {"save": _tr("&Save"), "discard": _tr("&Discard"), "cancel": _tr("&Cancel")},
+        default="save",
+    )
 
 
 def ask_recovery(parent: QWidget, leftover: Leftover) -> Literal["recover", "discard", "later"]:
     """Ask what becomes of the work that a crash left behind."""
     name = leftover.origin.stem if leftover.origin else _tr("an unsaved project")
     when = QLocale().toString(leftover.kept, QLocale.FormatType.ShortFormat)
-    box = _box(parent, _tr("Betwixt did not close properly. Recover your work?"))
-    box.setInformativeText(
-        _tr("Unsaved changes to {name}, kept {when}.").format(name=name, when=when)
+    return _ask(
+        parent,
+        _tr("Betwixt did not close properly. Recover your work?"),
+        _tr("Unsaved changes to {name}, kept {when}.").format(name=name, when=when),
+        {"recover": _tr("&Recover"), "discard": _tr("&Discard"), "later": _tr("&Later")},
+        default="recover",
     )
-    recover = box.addButton(_tr("&Recover"), QMessageBox.ButtonRole.AcceptRole)
-    discard = box.addButton(_tr("&Discard"), QMessageBox.ButtonRole.DestructiveRole)
-    later = box.addButton(_tr("&Later"), QMessageBox.ButtonRole.RejectRole)
-    box.setDefaultButton(recover)
-    box.setEscapeButton(later)
-    box.exec()
-    clicked = box.clickedButton()
-    return "recover" if clicked is recover else "discard" if clicked is discard else "later"
 
 
 def ask_replace(parent: QWidget, count: int, folder: Path) -> bool:
     """Ask whether files that exist may be replaced."""
     text = _tr("Replace {count} files in “{folder}”?") if count > 1 else _tr("Replace the file?")
-    box = _box(parent, text.format(count=count, folder=folder.name))
-    replace = box.addButton(_tr("&Replace"), QMessageBox.ButtonRole.AcceptRole)
-    cancel = box.addButton(_tr("&Cancel"), QMessageBox.ButtonRole.RejectRole)
-    box.setDefaultButton(cancel)
-    box.setEscapeButton(cancel)
-    box.exec()
-    return box.clickedButton() is replace
+    return _ask(
+        parent,
+        text.format(count=count, folder=folder.name),
+        "",
+        {True: _tr("&Replace"), False: _tr("&Cancel")},
+        default=False,
+    )
 
 
 def show_folder(folder: Path) -> None:
@@ -79,12 +73,20 @@ def show_folder(folder: Path) -> None:
     QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
 
 
-def _box(parent: QWidget, text: str) -> QMessageBox:
-    box = QMessageBox(parent)
-    box.setIcon(QMessageBox.Icon.Question)
-    box.setWindowTitle("Betwixt")
-    box.setText(text)
-    return box
+def _ask(
+    parent: QWidget, text: str, details: str, answers: dict[Answer, str], *, default: Answer
+) -> Answer:
+    """Ask a question: the first answer says yes, the last one is also that of Esc."""
+    box = QMessageBox(QMessageBox.Icon.Question, "Betwixt", text, parent=parent)
+    box.setInformativeText(details)
+    first, *others, last = answers
+    roles = {first: QMessageBox.ButtonRole.AcceptRole, last: QMessageBox.ButtonRole.RejectRole}
+    roles |= dict.fromkeys(others, QMessageBox.ButtonRole.DestructiveRole)
+    buttons = {answer: box.addButton(answers[answer], roles[answer]) for answer in answers}
+    box.setDefaultButton(buttons[default])
+    box.setEscapeButton(buttons[last])
+    box.exec()
+    return next((a for a, button in buttons.items() if button is box.clickedButton()), last)
 
 
 def _tr(text: str) -> str:
