@@ -38,6 +38,7 @@ class NumberField(CalmWheel, QDoubleSpinBox):
         self.setMinimumHeight(TARGET_SIZE)
         self.setCorrectionMode(QDoubleSpinBox.CorrectionMode.CorrectToNearestValue)
         self._gesture = object()
+        self._limits = least, most
         self.valueChanged.connect(self.edited)
         self.lineEdit().returnPressed.connect(self._end_gesture)
 
@@ -47,15 +48,21 @@ class NumberField(CalmWheel, QDoubleSpinBox):
         return self._gesture
 
     def show_value(self, value: float) -> None:
-        """Show a value; nothing is emitted, and text being typed is left alone if it says so."""
-        if self.value() != round(value, self.decimals()):
-            with QSignalBlocker(self):
+        """Show a value; nothing is emitted, and text being typed is left alone if it says so.
+
+        What may not be typed is shown as it is, too: a file may hold it.
+        """
+        least, most = self._limits
+        with QSignalBlocker(self):
+            self._set_range(min(least, value), max(most, value))
+            if self.value() != round(value, self.decimals()):
                 self.setValue(value)
 
     def limit(self, least: float, most: float) -> None:
         """Set what may be typed; nothing is emitted, whatever value is shown."""
+        self._limits = least, most
         with QSignalBlocker(self):
-            self.setRange(least, most)
+            self._set_range(least, most)
 
     def textFromValue(self, value: float) -> str:
         """Write a number without needless zeros."""
@@ -76,6 +83,10 @@ class NumberField(CalmWheel, QDoubleSpinBox):
         """Begin a gesture."""
         self._end_gesture()
         super().focusInEvent(event)
+
+    def _set_range(self, least: float, most: float) -> None:
+        if (self.minimum(), self.maximum()) != (least, most):  # else a held arrow would stop
+            self.setRange(least, most)
 
     def _end_gesture(self) -> None:
         self._gesture = object()

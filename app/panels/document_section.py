@@ -21,8 +21,12 @@ class DocumentSection(Section):
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(self.tr("Document"), workspace, parent)
-        self.width_ = NumberField(self.tr("Artboard width"), SMALLEST, LARGEST, suffix=" px")
-        self.height_ = NumberField(self.tr("Artboard height"), SMALLEST, LARGEST, suffix=" px")
+        self.width_ = NumberField(
+            self.tr("Artboard width"), SMALLEST, LARGEST, decimals=2, suffix=" px"
+        )
+        self.height_ = NumberField(
+            self.tr("Artboard height"), SMALLEST, LARGEST, decimals=2, suffix=" px"
+        )
         self.width_.edited.connect(self._set_width)
         self.height_.edited.connect(self._set_height)
         self.background = ColourField(self.tr("Background"))

@@ -29,7 +29,7 @@ from app.panels.properties import PropertiesPanel
 from app.workspace import Workspace
 from core.model import Document, Easing
 from core.model.easing import EASE_IN, HOLD, PRESETS
-from core.model.edits import move_nodes, remove_layer, update_layer
+from core.model.edits import move_nodes, remove_layer, update_document, update_layer
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Method, Recipe
 from tests.app.panels.conftest import a_layer
 
@@ -140,6 +140,26 @@ def test_every_recipe_is_shown_as_it_is(
     assert panel.mapping.method.currentText()
     choose(panel.mapping.method, panel.mapping.method.currentText())
     assert layer(workspace).recipe == recipe
+
+
+def test_numbers_that_a_file_holds_are_shown_as_they_are(
+    panel: PropertiesPanel, workspace: Workspace
+) -> None:
+    style = replace(layer(workspace).style, stroke_width=750.0)
+    recipe = Recipe(material="st-venant-kirchhoff", mu=20_000.0)
+    workspace.session.apply("Import", update_layer, 1, style=style, recipe=recipe)
+    workspace.session.apply("Import", update_document, size=(12_000.0, 200.25))
+    opened = workspace.session.document
+    fields = panel.layer.stroke_width, panel.mapping.mu, panel.document.width_
+    assert [field.value() for field in fields] == [750, 20_000, 12_000]
+    assert panel.document.height_.value() == 200.25
+    for field in fields:
+        field.setFocus()
+    panel.setFocus()
+    assert workspace.session.document is opened
+    workspace.selection.select_layer(2)
+    type_in(panel.layer.stroke_width, "750")
+    assert workspace.session.document.layer(2).style.stroke_width <= 500
 
 
 def test_the_fields_follow_undo_and_the_selection(
