@@ -20,8 +20,8 @@ import numpy as np
 
 from core.errors import FileError, Where
 from core.io.replacing import replacing, unreadable
-from core.io.structure import problems
 from core.model import Document
+from core.model.structure import problems
 
 EXTENSION = ".betwixt"
 VERSION = 1

@@ -1,13 +1,15 @@
 """Every change an artist can make, each as one pure function Document → Document.
 
 A function returns the very same document when nothing changes, and raises ``EditError`` when the
-edit is impossible. Parts that did not change are shared, so results computed for them stay valid.
+edit is impossible: what it names is not there, or what it makes is no sound document. Parts that
+did not change are shared, so results computed for them stay valid.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -17,44 +19,47 @@ from core.errors import EditError, Where
 from core.model.document import Document
 from core.model.easing import Easing
 from core.model.layer import Keyframe, Layer, mark_labels
-from core.model.outline import Outline, Ring, RingPoint
-
-MIN_NODES = 3
+from core.model.outline import MIN_NODES, Outline, Ring, RingPoint
+from core.model.structure import Problem, layer_problems, place_problems, setting_problems
 
 # -- document and layers -----------------------------------------------------------------------
 
 
 def update_document(document: Document, **changes: Any) -> Document:
     """Change fps, size or background."""
-    return _changed(document, **changes)
+    changed: Document = _changed(document, **changes)
+    if changed is not document:
+        _require_sound(setting_problems(changed))
+    return changed
 
 
 def add_layer(document: Document, name: str, frame: int, outline: Outline) -> Document:
     """Add a layer on top, with one keyframe."""
     new_id = max((layer.id for layer in document.layers), default=0) + 1
     layer = Layer(new_id, name, (Keyframe(frame, outline),))
+    _require_sound(layer_problems("layer", layer))
     return replace(document, layers=(*document.layers, layer))
 
 
 def duplicate_layer(document: Document, layer_id: int, name: str) -> Document:
     """Add a copy of a layer right above it."""
-    new_id = max(layer.id for layer in document.layers) + 1
-    layers = list(document.layers)
-    index = layers.index(document.layer(layer_id))
-    layers.insert(index + 1, replace(layers[index], id=new_id, name=name))
-    return replace(document, layers=tuple(layers))
+    layer = _layer(document, layer_id)
+    copy = replace(layer, id=max(other.id for other in document.layers) + 1, name=name)
+    _require_sound(layer_problems("layer", copy))
+    pairs = ((other, copy) if other is layer else (other,) for other in document.layers)
+    return replace(document, layers=tuple(chain.from_iterable(pairs)))
 
 
 def remove_layer(document: Document, layer_id: int) -> Document:
     """Remove a layer."""
-    kept = tuple(layer for layer in document.layers if layer.id != layer_id)
-    return _changed(document, layers=kept)
+    gone = _layer(document, layer_id)
+    return replace(document, layers=tuple(other for other in document.layers if other is not gone))
 
 
 def reorder_layer(document: Document, layer_id: int, index: int) -> Document:
     """Move a layer to a position in the stack, bottom = 0."""
-    layer = document.layer(layer_id)
-    layers = [other for other in document.layers if other.id != layer_id]
+    layer = _layer(document, layer_id)
+    layers = [other for other in document.layers if other is not layer]
     layers.insert(max(index, 0), layer)
     return _changed(document, layers=tuple(layers))
 
@@ -124,7 +129,7 @@ def replace_outline(
     document: Document, layer_id: int, key: int, outline: Outline, marks: Sequence[RingPoint]
 ) -> Document:
     """Give a keyframe another outline, with a place on it for every mark."""
-    if len(marks) != len(document.layer(layer_id).labels):
+    if len(marks) != len(_layer(document, layer_id).labels):
         raise EditError("A keyframe must place every mark of its layer.")
     return _on_key(document, layer_id, key, outline=outline, marks=tuple(marks))
 
@@ -144,7 +149,7 @@ def move_nodes(
 
     def edit(old: Ring) -> Ring:
         points = np.array(old.points)
-        points[list(nodes)] += np.asarray(by, dtype=float)
+        points[_nodes(old, nodes)] += np.asarray(by, dtype=float)
         return replace(old, points=points)
 
     return _on_ring(document, layer_id, key, ring, edit)
@@ -162,6 +167,7 @@ def set_handles(
     ring, node = place
 
     def edit(old: Ring) -> Ring:
+        _nodes(old, [node])
         before, after = np.array(old.handles_in), np.array(old.handles_out)
         before[node], after[node] = handle_in, handle_out
         return replace(old, handles_in=before, handles_out=after)
@@ -171,7 +177,8 @@ def set_handles(
 
 def insert_node(document: Document, layer_id: int, key: int, place: RingPoint) -> Document:
     """Insert a node on the curve, without changing its shape; marks stay where they are."""
-    keyframe = _keyframe(document.layer(layer_id), key)
+    keyframe = _keyframe(_layer(document, layer_id), key)
+    _require_sound(place_problems("place", place, keyframe.outline))
     segment, u = int(place.at), place.at - int(place.at)
     if u == 0:
         return document
@@ -199,9 +206,9 @@ def delete_nodes(
     document: Document, layer_id: int, key: int, ring: int, nodes: Sequence[int]
 ) -> Document:
     """Delete nodes; a ring keeps at least three. Their marks stay between the same neighbours."""
-    keyframe = _keyframe(document.layer(layer_id), key)
-    old = keyframe.outline.rings[ring]
-    gone = np.unique(np.asarray(nodes, dtype=int))
+    keyframe = _keyframe(_layer(document, layer_id), key)
+    old = _ring(keyframe, ring)
+    gone = np.unique(_nodes(old, nodes))
     if len(old) - len(gone) < MIN_NODES:
         raise EditError(
             f"A ring needs at least {MIN_NODES} nodes.",
@@ -232,7 +239,7 @@ def transform_outline(
     document: Document, layer_id: int, key: int, matrix: ArrayLike, offset: ArrayLike
 ) -> Document:
     """Apply x → M x + offset to a whole keyframe."""
-    keyframe = _keyframe(document.layer(layer_id), key)
+    keyframe = _keyframe(_layer(document, layer_id), key)
     return _on_key(document, layer_id, key, outline=keyframe.outline.transformed(matrix, offset))
 
 
@@ -257,7 +264,9 @@ def add_mark(document: Document, layer_id: int, places: Sequence[RingPoint]) -> 
 
 def move_mark(document: Document, layer_id: int, key: int, mark: int, place: RingPoint) -> Document:
     """Move a mark on one keyframe."""
-    marks = list(_keyframe(document.layer(layer_id), key).marks)
+    layer = _layer(document, layer_id)
+    _require_marks(layer, [mark])
+    marks = list(_keyframe(layer, key).marks)
     marks[mark] = place
     return _on_key(document, layer_id, key, marks=tuple(marks))
 
@@ -270,6 +279,7 @@ def remove_marks(document: Document, layer_id: int, marks: Sequence[int]) -> Doc
         return tuple(item for i, item in enumerate(items) if i not in gone)
 
     def edit(layer: Layer) -> Layer:
+        _require_marks(layer, marks)
         keys = tuple(replace(key, marks=kept(key.marks)) for key in layer.keyframes)
         return _changed(layer, labels=kept(layer.labels), keyframes=keys)
 
@@ -287,14 +297,51 @@ def _changed(item: Any, **changes: Any) -> Any:
 
 
 def _on_layer(document: Document, layer_id: int, edit: Callable[[Layer], Layer]) -> Document:
-    layers = tuple(edit(layer) if layer.id == layer_id else layer for layer in document.layers)
-    return _changed(document, layers=layers)
+    layer = _layer(document, layer_id)
+    edited = edit(layer)
+    if edited == layer:
+        return document
+    _require_sound(layer_problems("layer", edited))
+    layers = tuple(edited if other is layer else other for other in document.layers)
+    return replace(document, layers=layers)
+
+
+def _layer(document: Document, layer_id: int) -> Layer:
+    try:
+        return document.layer(layer_id)
+    except KeyError:
+        raise EditError("There is no such layer.") from None
 
 
 def _keyframe(layer: Layer, key: int) -> Keyframe:
     if not 0 <= key < len(layer.keyframes):
         raise EditError(f"Layer “{layer.name}” has no such keyframe.")
     return layer.keyframes[key]
+
+
+def _ring(keyframe: Keyframe, ring: int) -> Ring:
+    if not 0 <= ring < len(keyframe.outline.rings):
+        raise EditError("The outline has no such ring.", where=Where(ring=ring))
+    return keyframe.outline.rings[ring]
+
+
+def _nodes(ring: Ring, nodes: Sequence[int]) -> list[int]:
+    for node in nodes:
+        if not 0 <= node < len(ring):
+            raise EditError("The ring has no such node.", where=Where(node=node))
+    return list(nodes)
+
+
+def _require_marks(layer: Layer, marks: Sequence[int]) -> None:
+    for mark in marks:
+        if not 0 <= mark < len(layer.labels):
+            raise EditError(f"Layer “{layer.name}” has no such mark.", where=Where(marks=(mark,)))
+
+
+def _require_sound(problems: Iterable[Problem]) -> None:
+    """Refuse what a document could not be saved with."""
+    for place, what in problems:
+        raise EditError(f"That edit is not possible: {place}: {what}.")
 
 
 def _with_key(layer: Layer, key: int, **changes: Any) -> Layer:
@@ -309,10 +356,9 @@ def _on_key(document: Document, layer_id: int, key: int, **changes: Any) -> Docu
 def _on_ring(
     document: Document, layer_id: int, key: int, ring: int, edit: Callable[[Ring], Ring]
 ) -> Document:
-    outline = _keyframe(document.layer(layer_id), key).outline
-    return _on_key(
-        document, layer_id, key, outline=outline.with_ring(ring, edit(outline.rings[ring]))
-    )
+    keyframe = _keyframe(_layer(document, layer_id), key)
+    edited = edit(_ring(keyframe, ring))
+    return _on_key(document, layer_id, key, outline=keyframe.outline.with_ring(ring, edited))
 
 
 def _wrapped(at: float, n: int) -> float:

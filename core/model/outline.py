@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
+MIN_NODES = 3
+"""Fewest nodes of a ring."""
 QUARTER = 4 / 3 * (2**0.5 - 1)
 """Handle length at which a cubic comes closest to a quarter of the unit circle."""
 

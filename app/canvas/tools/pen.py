@@ -17,8 +17,7 @@ from app.style import colours
 from app.workspace import Workspace
 from core.geometry.flatten import flatten_ring
 from core.model import Ring
-from core.model.edits import MIN_NODES
-from core.model.outline import Array
+from core.model.outline import MIN_NODES, Array
 
 if TYPE_CHECKING:
     from app.canvas.pane import Pane

@@ -10,7 +10,7 @@ from core.errors import FileError
 from core.io.importers.nesting import group_rings
 from core.io.importers.part import MAX_NODES, Part, numbered
 from core.model import Ring
-from core.model.edits import MIN_NODES
+from core.model.outline import MIN_NODES
 
 Points = Sequence[tuple[float, float]]
 

@@ -1,17 +1,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from copy import deepcopy
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.errors import EditError
 from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Style, edits
+from core.model.outline import MIN_NODES
+from core.model.structure import problems
 from tests.core.model.shapes import documents, easings, layers, outlines, places
 
 Call = tuple[Callable[..., Document], tuple[Any, ...]]
@@ -36,7 +39,7 @@ def calls(draw: st.DrawFn, document: Document) -> Call:
         (edits.add_mark, ([RingPoint(0, 0.25)] * len(layer.keyframes),)),
         (edits.move_keyframe, (key, layer.keyframes[key].frame)),
     ]
-    if len(outline.rings[place.ring]) > edits.MIN_NODES:
+    if len(outline.rings[place.ring]) > MIN_NODES:
         options.append((edits.delete_nodes, (key, place.ring, [node[1]])))
     if marks:
         options.append((edits.move_mark, (key, draw(st.integers(0, len(marks) - 1)), place)))
@@ -79,7 +82,6 @@ def test_an_edit_that_changes_nothing_returns_the_very_same_document(document: D
         edits.update_document(document, fps=document.fps),
         edits.update_layer(document, layer.id, style=Style(), recipe=Recipe()),
         edits.reorder_layer(document, layer.id, 0),
-        edits.remove_layer(document, 99),
         edits.move_keyframe(document, layer.id, 0, key.frame),
         edits.set_easing(document, layer.id, 0, Easing()),
         edits.replace_outline(document, layer.id, 0, deepcopy(key.outline), key.marks),
@@ -94,6 +96,93 @@ def test_an_edit_that_changes_nothing_returns_the_very_same_document(document: D
         edits.remove_marks(document, layer.id, []),
     ):
         assert after is document
+
+
+# -- what is impossible ------------------------------------------------------------------------
+
+indices = st.integers(-3, 12)
+numbers = st.floats() | st.sampled_from([0.0, -1.0, 1e308])
+vectors = st.tuples(numbers, numbers)
+any_place = st.builds(RingPoint, st.integers(-1, 1), st.floats(-2, 12) | numbers)
+
+
+@st.composite
+def wild_calls(draw: st.DrawFn) -> Call:
+    """Any edit of layer 1, with arguments of the right kind that may not fit the document."""
+    key, ring, node, mark = (draw(indices) for _ in range(4))
+    x, place, offset = draw(numbers), draw(any_place), draw(vectors)
+    with np.errstate(all="ignore"):
+        outline = Outline.polygon(draw(st.lists(vectors, max_size=4)))
+    drawn = Keyframe(draw(st.integers(-(10**7), 10**7)), outline, (place,), Easing(x, x, x, x))
+    options: list[Call] = [
+        (edits.update_layer, ()),
+        (edits.duplicate_layer, ("copy",)),
+        (edits.remove_layer, ()),
+        (edits.reorder_layer, (key,)),
+        (edits.insert_keyframe, (drawn,)),
+        (edits.insert_keyframe, (replace(drawn, marks=()),)),
+        (edits.remove_keyframe, (key,)),
+        (edits.move_keyframe, (key, drawn.frame)),
+        (edits.replace_outline, (key, outline, [place])),
+        (edits.set_easing, (key, drawn.easing)),
+        (edits.move_nodes, (key, ring, [node, node + 1], offset)),
+        (edits.set_handles, (key, (ring, node), offset, (0.0, 0.0))),
+        (edits.insert_node, (key, place)),
+        (edits.delete_nodes, (key, ring, [node])),
+        (edits.transform_outline, (key, [offset, (0.0, x)], offset)),
+        (edits.add_mark, ([place, place],)),
+        (edits.move_mark, (key, mark, place)),
+        (edits.remove_marks, ([mark],)),
+    ]
+    return draw(st.sampled_from(options))
+
+
+@given(wild_calls())
+def test_no_edit_is_possible_on_a_layer_that_is_not_there(call: Call) -> None:
+    edit, args = call
+    for document in (Document(), Document((Layer(2, "", (Keyframe(1, TRIANGLE),)),))):
+        with pytest.raises(EditError, match="no such layer"):
+            edit(document, 1, *args)
+
+
+@settings(max_examples=300)
+@given(layers(), wild_calls())
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # coordinates may overflow
+def test_an_edit_makes_a_sound_document_or_is_refused(layer: Layer, call: Call) -> None:
+    edit, args = call
+    with suppress(EditError):
+        assert not list(problems(edit(Document((layer,)), 1, *args)))
+
+
+@given(numbers, numbers)
+def test_settings_are_sound_or_refused(a: float, b: float) -> None:
+    for changes in ({"fps": a}, {"size": (a, b)}):
+        with suppress(EditError):
+            assert not list(problems(edits.update_document(Document(), **changes)))
+
+
+@pytest.mark.parametrize(
+    ("edit", "args"),
+    [
+        (edits.update_document, ()),
+        (edits.move_nodes, (1, 0, 0, [0], (np.nan, 0))),
+        (edits.move_nodes, (1, 0, 1, [0], (1, 1))),
+        (edits.move_nodes, (1, 0, 0, [3], (1, 1))),
+        (edits.set_handles, (1, 0, (0, -1), (1, 1), (1, 1))),
+        (edits.delete_nodes, (1, 0, 0, [7])),
+        (edits.insert_node, (1, 0, RingPoint(0, 3.5))),
+        (edits.add_mark, (1, [RingPoint(0, -0.5)])),
+        (edits.move_mark, (1, 0, 0, RingPoint(0, 0.5))),
+        (edits.remove_marks, (1, [-1])),
+        (edits.add_layer, ("", 1, Outline(()))),
+    ],
+)
+def test_what_does_not_fit_the_document_is_refused(
+    edit: Callable[..., Document], args: tuple[Any, ...]
+) -> None:
+    changes = {"fps": 0} if edit is edits.update_document else {}
+    with pytest.raises(EditError):
+        edit(Document((Layer(1, "", (Keyframe(1, TRIANGLE),)),)), *args, **changes)
 
 
 # -- layers ------------------------------------------------------------------------------------
@@ -268,7 +357,7 @@ def test_deleting_nodes_keeps_the_marks_in_their_order_round_the_ring(
     n = len(outline.rings[0])
     grid = st.integers(0, 8 * n - 1).map(lambda i: RingPoint(0, i / 8))
     marks = data.draw(st.lists(grid, max_size=5, unique=True))
-    gone = data.draw(st.sets(st.integers(0, n - 1), max_size=n - edits.MIN_NODES))
+    gone = data.draw(st.sets(st.integers(0, n - 1), max_size=n - MIN_NODES))
     document = one_key(outline, marks)
     after = edits.delete_nodes(document, 1, 0, 0, list(gone)).layers[0].keyframes[0]
     assert len(after.outline.rings[0]) == n - len(gone)
@@ -290,7 +379,7 @@ def test_deleting_nodes_leaves_marks_on_other_segments_alone(
     outline: Outline, data: st.DataObject
 ) -> None:
     n = len(outline.rings[0])
-    gone = data.draw(st.sets(st.integers(0, n - 1), max_size=n - edits.MIN_NODES))
+    gone = data.draw(st.sets(st.integers(0, n - 1), max_size=n - MIN_NODES))
     untouched = [i for i in range(n) if not {i, (i + 1) % n} & gone]
     marks = [RingPoint(0, i + 0.3) for i in untouched]
     document = one_key(outline, marks)

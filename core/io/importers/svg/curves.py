@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from core.model import Ring
-from core.model.edits import MIN_NODES
-from core.model.outline import Array
+from core.model.outline import MIN_NODES, Array
 
 if TYPE_CHECKING:
     from svgelements import Arc, CubicBezier, Path

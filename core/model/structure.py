@@ -1,4 +1,4 @@
-"""What every document must satisfy, whatever file it comes from."""
+"""What every document must satisfy, whatever edit or file it comes from."""
 
 from __future__ import annotations
 
@@ -8,9 +8,12 @@ from math import isfinite
 
 import numpy as np
 
-from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Style
-from core.model.edits import MIN_NODES
-from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
+from core.model.document import Document
+from core.model.easing import Easing
+from core.model.layer import Keyframe, Layer
+from core.model.outline import MIN_NODES, Outline, RingPoint
+from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Recipe
+from core.model.style import Style
 
 MAX_FRAME = 1_000_000
 COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
@@ -21,20 +24,26 @@ Problem = tuple[str, str]
 
 def problems(document: Document) -> Iterator[Problem]:
     """Yield everything that is wrong with a document's structure; nothing when it is sound."""
-    yield from _positive("fps", document.fps)
-    for i, length in enumerate(document.size):
-        yield from _positive(f"size[{i}]", length)
-    yield from _colour("background", document.background)
+    yield from setting_problems(document)
     seen: set[int] = set()
     for i, layer in enumerate(document.layers):
         path = f"layers[{i}]"
         if layer.id in seen:
             yield f"{path}.id", f"{layer.id} is the id of another layer too"
         seen.add(layer.id)
-        yield from _layer(path, layer)
+        yield from layer_problems(path, layer)
 
 
-def _layer(path: str, layer: Layer) -> Iterator[Problem]:
+def setting_problems(document: Document) -> Iterator[Problem]:
+    """Yield what is wrong with a document besides its layers."""
+    yield from _positive("fps", document.fps)
+    for i, length in enumerate(document.size):
+        yield from _positive(f"size[{i}]", length)
+    yield from _colour("background", document.background)
+
+
+def layer_problems(path: str, layer: Layer) -> Iterator[Problem]:
+    """Yield what is wrong with a layer, which is at ``path`` in the document."""
     yield from _text(f"{path}.name", layer.name)
     yield from _style(f"{path}.style", layer.style)
     yield from _recipe(f"{path}.recipe", layer.recipe)
@@ -61,7 +70,7 @@ def _keyframe(path: str, key: Keyframe, labels: tuple[str, ...]) -> Iterator[Pro
     if len(key.marks) != len(labels):
         yield f"{path}.marks", f"{len(key.marks)} places for {len(labels)} marks"
     for i, mark in enumerate(key.marks):
-        yield from _mark(f"{path}.marks[{i}]", mark, key.outline)
+        yield from place_problems(f"{path}.marks[{i}]", mark, key.outline)
 
 
 def _outline(path: str, outline: Outline) -> Iterator[Problem]:
@@ -75,11 +84,14 @@ def _outline(path: str, outline: Outline) -> Iterator[Problem]:
                 yield f"{path}.rings[{i}].{name}[{row}]", "not a finite number"
 
 
-def _mark(path: str, mark: RingPoint, outline: Outline) -> Iterator[Problem]:
-    if not 0 <= mark.ring < len(outline.rings):
-        yield f"{path}.ring", f"there is no ring {mark.ring}; the outline has {len(outline.rings)}"
-    elif not 0 <= mark.at <= (nodes := len(outline.rings[mark.ring])):  # n: rounded up to node 0
-        yield f"{path}.at", f"{mark.at} is not on the ring, which runs from 0 to {nodes}"
+def place_problems(path: str, place: RingPoint, outline: Outline) -> Iterator[Problem]:
+    """Yield why there is no such place on an outline."""
+    if not 0 <= place.ring < len(outline.rings):
+        yield f"{path}.ring", f"there is no ring {place.ring}; the outline has {len(outline.rings)}"
+        return
+    nodes = len(outline.rings[place.ring])
+    if not 0 <= place.at <= nodes:  # n: rounded up to node 0
+        yield f"{path}.at", f"{place.at} is not on the ring, which runs from 0 to {nodes}"
 
 
 def _easing(path: str, easing: Easing) -> Iterator[Problem]:
