@@ -122,6 +122,7 @@ def _holes(
     """Match the holes, each by its marks, or else by what the exterior's match says of it."""
     known = {mark.rings[0]: mark.rings[1] for mark in marks if mark.rings[0] > 0}
     if exterior is not None:
+        watch("matching")
         pairs = paired_holes(source.rings, target.rings, exterior, known)
     else:
         free = iter(j for j in range(1, len(target.rings)) if j not in known.values())
