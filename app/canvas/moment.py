@@ -60,21 +60,15 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     stale = frozenset(
         other.id
         for other in document.layers
-        if progress(other, frame) not in (0.0, 1.0)  # an easing may also overshoot
+        if other.progress_at(frame)[1] not in (0.0, 1.0)  # an easing may also overshoot
         and state_of(other) is not SpanState.SOLVED
     )
     if layer is None or not layer.spans:
         return Moment(document, frame, layer, stale=stale)
     span, t = layer.span_at(frame)
     morph = workspace.solver.morph_of(span_of(layer, span))
-    s = progress(layer, frame)
+    s = layer.progress_at(frame)[1]
     return Moment(document, frame, layer, span, t, s, morph, state_of(layer), stale)
-
-
-def progress(layer: Layer, frame: float) -> float:
-    """Return s: how far a layer is from one key to the next, in shape."""
-    span, t = layer.span_at(frame)
-    return layer.keyframes[span].easing(t)
 
 
 def edited_key(workspace: Workspace, role: Role) -> int | None:
