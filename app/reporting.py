@@ -12,7 +12,8 @@ from app.panels.messages import Action, MessageBar
 from app.workspace import Workspace
 from core.errors import FileError, MarkError, MorphError, OutlineError, Where
 from core.model import Layer
-from core.model.edits import remove_marks
+from core.model.edits import remove_marks, transform_outline
+from core.morph.scene import Span, span_of
 
 Key = tuple[int, int]
 """Layer id and span index."""
@@ -27,6 +28,8 @@ class Reporter(QObject):
         self._shown: MorphError | None = None
         """The solver's error on show."""
         self._dismissed: MorphError | None = None
+        self._offered: Span | None = None
+        """The span whose target was offered to be mirrored last."""
         self._passing = False
         """Whether what is on show goes with the next change."""
         self._soon = QTimer(self, singleShot=True, interval=0)
@@ -80,6 +83,8 @@ class Reporter(QObject):
             return
         key = self._most_pressing()
         error = None if key is None else self._workspace.solver.errors[key]
+        if error is None:
+            self._offer_mirror()
         if error is self._shown:
             return
         if error is None or key is None or error is self._dismissed:
@@ -110,6 +115,30 @@ class Reporter(QObject):
         self._passing, self._shown = False, None
         self._bar.clear()
         self._canvas.clear_error()
+
+    def _offer_mirror(self) -> None:
+        """Offer the mirrored target once, where it would match far better."""
+        layer = self._workspace.selection.layer
+        if layer is None or not layer.spans or self._workspace.session.dragging:
+            return
+        index = layer.span_at(self._workspace.playhead.frame)[0]
+        span = span_of(layer, index)
+        morph = self._workspace.solver.solutions().get(span)
+        if morph is None or not morph.report.mirror or span == self._offered:
+            return
+        self._offered = span
+        self.note(
+            self.tr("The target matches far better mirrored."),
+            (self.tr("Mirror target"), partial(self._mirror, layer.id, index + 1)),
+        )
+
+    def _mirror(self, layer_id: int, key: int) -> None:
+        """Mirror a keyframe left to right, where it is."""
+        outline = self._workspace.session.document.layer(layer_id).keyframes[key].outline
+        left, _, right, _ = outline.bounds()
+        flip, offset = ((-1.0, 0.0), (0.0, 1.0)), (left + right, 0.0)
+        text = self.tr("Mirror target")
+        self._workspace.session.apply(text, transform_outline, layer_id, key, flip, offset)
 
     # -- mending -------------------------------------------------------------------------------
 

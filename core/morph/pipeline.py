@@ -25,6 +25,7 @@ from core.morph.mapping import Map, direct_map, mended_map
 from core.morph.morph import Morph
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report
+from core.morph.suggest import mirror_matches_better
 from core.progress import Progress, Watch, silent
 
 GOOD = 1.3
@@ -65,6 +66,8 @@ def solve_outlines(
     boundaries = correspondences(*ends, placed, labels, recipe.density, clock.watch)
     here, there = frames = _Frame.of(ends[0]), _Frame.of(ends[1])
     boundary, found, tried = _best(boundaries, frames, recipe, clock.watch)
+    guessed = not any(mark.rings == (0, 0) for mark in placed)
+    mirror = guessed and found.mean > GOOD and mirror_matches_better(*(e.rings[0] for e in ends))
     clock.start("in-between", 0.9)
     mesh, b = found.mesh, found.mesh.boundary_size
     rest, goal = here.outside(mesh.points), there.outside(found.target)
@@ -85,6 +88,7 @@ def solve_outlines(
         timings=_timings(clock, found),
         stages=found.stages,
         tried=tried,
+        mirror=mirror,
         repairs=ends[0].repairs + ends[1].repairs,
     )
     return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, here.origin, here.unit)

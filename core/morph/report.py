@@ -44,6 +44,8 @@ class Report:
     iterations: tuple[Iteration, ...]
     timings: dict[str, float]
     """Seconds by stage, in order."""
+    mirror: bool
+    """Whether the mirror image of the target would match the source far better."""
     repairs: tuple[str, ...]
     """What was changed in the outlines so that they could be used."""
     stages: tuple[Stage, ...]

@@ -59,6 +59,11 @@ def suggest_marks(
     ]
 
 
+def mirror_matches_better(source: Array, target: Array) -> bool:
+    """Whether the mirror image of the target ring (k, 2) matches the source (n, 2) far better."""
+    return any(candidate.mirrored for candidate in suggest_marks(source, target))
+
+
 def suggest_for(
     source: Outline, target: Outline, marks: Marks = ()
 ) -> list[tuple[RingPoint, RingPoint, float]]:

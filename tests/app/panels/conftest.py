@@ -38,6 +38,7 @@ REPORT = Report(
     timings={"matching": 0.001, "mesh": 0.0115},
     stages=(),
     tried=1,
+    mirror=False,
     repairs=("Removed 2 repeated points.",),
 )
 

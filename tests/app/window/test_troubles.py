@@ -168,3 +168,24 @@ def test_the_status_bar_says_what_the_next_click_does(window: MainWindow) -> Non
         hints.add(window.status.hint.text())
     assert len(hints) == 5
     assert all(hints)
+
+
+def test_a_target_that_matches_far_better_mirrored_is_offered_once_and_mirrored_with_one_click(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    session = window.workspace.session
+    flag = [(100, 50), (140, 50), (300, 80), (300, 180), (140, 160), (140, 400), (100, 400)]
+    mirrored = [(700 - x, y) for x, y in reversed(flag)]
+    keys = Keyframe(1, Outline.polygon(flag)), Keyframe(25, Outline.polygon(mirrored))
+    session.replace(Document((Layer(1, "flag", keys),)))
+    before = session.document
+    qtbot.waitUntil(lambda: "Mirror target" in mends(window))
+    QTest.mouseClick(mends(window)["Mirror target"], LEFT)
+    target = session.document.layers[0].keyframes[1].outline
+    assert target.bounds() == before.layers[0].keyframes[1].outline.bounds()
+    qtbot.waitUntil(lambda: window.workspace.solver.state(1, 0) is SpanState.SOLVED)
+    morph = window.workspace.solver.solutions()[span_of(session.document.layers[0], 0)]
+    assert morph.report.distortion_mean < 1.01
+    assert not window.messages.text
+    session.undo()
+    assert session.document is before

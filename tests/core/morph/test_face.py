@@ -141,3 +141,10 @@ def test_without_marks_a_shape_is_not_turned_for_nothing():
 def test_without_marks_a_shape_that_did_turn_is_turned():
     morph = core.solve(letter_l(), letter_l() @ rotation(2.8).T)
     assert np.average(morph.inbetween.theta) == pytest.approx(2.8, abs=0.01)
+
+
+def test_a_mirrored_shape_is_said_to_match_better_mirrored_and_others_are_not():
+    flag = np.array([[0, 0], [1, 0], [5, 1], [5, 3], [1, 2.5], [1, 8], [0, 8]])
+    assert core.solve(flag, flag * [-1, 1]).report.mirror
+    assert not core.solve(flag, flag @ rotation(1.0).T).report.mirror
+    assert not core.solve(comb(), ellipse()).report.mirror
