@@ -18,8 +18,8 @@ from core.geometry.rotation import turn_and_mirror
 from core.geometry.triangulation import Mesh, split_chords, triangulate
 from core.model import Recipe
 from core.model.outline import Array
-from core.morph.cleanup import coarsen, improve
-from core.morph.overlay import compatible_mesh
+from core.morph.compatible.cleanup import coarsen, improve
+from core.morph.compatible.overlay import compatible_mesh
 from core.morph.placement import place, settle
 from core.morph.quality import distortion
 from core.morph.report import Iteration, Stage

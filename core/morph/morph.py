@@ -8,7 +8,7 @@ from typing import Any
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.inbetween import Interpolate
+from core.morph.motion.interpolate import Interpolate
 from core.morph.report import Report
 
 

@@ -20,9 +20,10 @@ from core.model.outline import Array
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
 from core.morph.boundary import BoundaryPair
 from core.morph.correspondence import correspondences, place_marks
-from core.morph.inbetween import METHODS, Interpolate
 from core.morph.mapping import Map, direct_map, mended_map
 from core.morph.morph import Morph
+from core.morph.motion.interpolate import Interpolate
+from core.morph.motion.methods import METHODS
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report
 from core.morph.suggest import mirror_matches_better

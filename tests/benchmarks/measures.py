@@ -16,7 +16,8 @@ from shapely import points as shapely_points
 
 import core
 from core.geometry.polyline import signed_area
-from core.morph.inbetween import Linear, PlainRigid
+from core.morph.motion.linear import Linear
+from core.morph.motion.rigid import PlainRigid
 from core.morph.quality import crosses_itself, folds, smallest_angle
 from tests.benchmarks.pairs import Pair
 

@@ -17,7 +17,7 @@ import numpy as np
 
 import core
 from core.geometry.rotation import rotate
-from core.morph.inbetween import PlainRigid
+from core.morph.motion.rigid import PlainRigid
 from tests.core.shapes import limb
 
 PAPER_CORRESPONDENCE, PAPER_FRAME = 256.0, 42.0
@@ -58,7 +58,7 @@ def frame_parts(morph: core.Morph, repeats: int) -> dict[str, float]:
     moments = cycle(np.linspace(0.1, 0.9, 101))  # the last frame asked for is remembered
     return {
         "ideal gradients": milliseconds(lambda: frame.ideal(0.37), repeats),
-        "  of that, turning": milliseconds(lambda: rotate(frame.theta, frame.stretch), repeats),
+        "  of that, turning": milliseconds(lambda: rotate(frame.ideal.theta, ideal), repeats),
         "load": milliseconds(lambda: frame.fit.load(ideal), repeats),
         "back-substitution": milliseconds(lambda: frame.fit.solve(load), repeats),
         "frame": milliseconds(lambda: morph.at(next(moments)), repeats),

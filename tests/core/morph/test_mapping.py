@@ -10,8 +10,8 @@ import pytest
 from core.errors import Cancelled
 from core.model import Recipe
 from core.model.outline import Array
+from core.morph.compatible.overlay import compatible_mesh
 from core.morph.mapping import POOR, Map, direct_map, mended_map
-from core.morph.overlay import compatible_mesh
 from core.morph.quality import folds
 from core.progress import unwatched
 from tests.core.morph.polygons import comb, disc, spiral, square

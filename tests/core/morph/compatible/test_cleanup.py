@@ -13,15 +13,15 @@ from core.errors import Cancelled
 from core.geometry.polyline import resample
 from core.geometry.triangulation import Mesh, split_edges, triangulate, unique_edges
 from core.model.outline import Array
-from core.morph.cleanup import coarsen, improve
-from core.morph.flips import flip
-from core.morph.joint import JointMesh, quality
-from core.morph.overlay import compatible_mesh
+from core.morph.compatible.cleanup import coarsen, improve
+from core.morph.compatible.flips import flip
+from core.morph.compatible.joint import JointMesh, quality
+from core.morph.compatible.overlay import compatible_mesh
+from core.morph.compatible.removal import remove
+from core.morph.compatible.smoothing import GOOD, smooth
 from core.morph.quality import smallest_angle
-from core.morph.removal import remove
-from core.morph.smoothing import GOOD, smooth
+from tests.core.morph.compatible.test_overlay import HOLES, PAIRS, B, check_fits
 from tests.core.morph.polygons import at_unit_area, comb, disc, needle, star_shaped, untangled
-from tests.core.morph.test_overlay import HOLES, PAIRS, B, check_fits
 
 AREA = 1 / 200
 

@@ -7,9 +7,9 @@ import pytest
 from shapely import LineString, Polygon
 
 from core.geometry.polyline import signed_area
-from core.morph.bridges import cut_open
+from core.morph.compatible.bridges import cut_open
+from tests.core.morph.compatible.test_overlay import HOLES
 from tests.core.morph.polygons import disc
-from tests.core.morph.test_overlay import HOLES
 
 
 def test_an_outline_without_holes_is_left_as_it_is() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.morph.joint import JointMesh, quality
+from core.morph.compatible.joint import JointMesh, quality
 
 GOOD = 0.4
 """Triangles may get worse down to this quality; below it, none worse than the worst beside it."""

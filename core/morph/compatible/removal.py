@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.joint import JointMesh, quality, worse_end
+from core.morph.compatible.joint import JointMesh, quality, worse_end
 
 
 def remove(mesh: JointMesh, unwanted: NDArray[np.bool_], fair: Array) -> JointMesh:

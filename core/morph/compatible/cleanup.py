@@ -14,10 +14,10 @@ from core.fem.energies import SymmetricDirichlet
 from core.fem.newton import FreeVertices, line_search, newton_step
 from core.geometry.triangulation import Indices, Mesh, split_edges, unique_edges
 from core.model.outline import Array
-from core.morph.flips import flip
-from core.morph.joint import JointMesh
-from core.morph.removal import remove
-from core.morph.smoothing import smooth
+from core.morph.compatible.flips import flip
+from core.morph.compatible.joint import JointMesh
+from core.morph.compatible.removal import remove
+from core.morph.compatible.smoothing import smooth
 from core.progress import Watch, unwatched
 
 COARSENINGS = 12

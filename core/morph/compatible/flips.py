@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.morph.joint import JointMesh, quality, worse_end
+from core.morph.compatible.joint import JointMesh, quality, worse_end
 
 GAIN = 0.02
 """A flip must improve by this fraction, so that flipping ends."""

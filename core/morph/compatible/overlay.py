@@ -18,8 +18,8 @@ import numpy as np
 from core.geometry.polyline import cross
 from core.geometry.triangulation import Indices, Mesh
 from core.model.outline import Array
-from core.morph.bridges import cut_open
-from core.morph.chords import chord_sets, crossing
+from core.morph.compatible.bridges import cut_open
+from core.morph.compatible.chords import chord_sets, crossing
 from core.progress import Watch, unwatched
 
 MOST_SIDES = 6

@@ -9,9 +9,9 @@ from core.fem.energies.fold_barrier import REACH
 from core.geometry.polyline import arc_lengths, signed_area
 from core.geometry.rotation import rotate
 from core.morph.boundary import MatchedRing, correspond
-from core.morph.guard import FoldGuard
-from core.morph.inbetween import Rigid
 from core.morph.mapping import direct_map
+from core.morph.motion.guard import FoldGuard
+from core.morph.motion.rigid import Rigid
 from core.morph.quality import folds
 from tests.core.shapes import comb, limb
 

@@ -11,8 +11,8 @@ from shapely import LineString, Polygon
 from core.geometry.polyline import signed_area
 from core.geometry.triangulation import Mesh, unique_edges
 from core.model.outline import Array
-from core.morph.chords import chord_sets, crossing
-from core.morph.overlay import compatible_mesh
+from core.morph.compatible.chords import chord_sets, crossing
+from core.morph.compatible.overlay import compatible_mesh
 from core.morph.quality import doubled_areas
 from tests.core.morph.polygons import (
     comb,

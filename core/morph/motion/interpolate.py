@@ -1,0 +1,25 @@
+"""What every way from rest to target can do."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+from core.progress import Watch, unwatched
+
+
+class Interpolate(Protocol):
+    """A way from rest to target."""
+
+    def __init__(
+        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+    ) -> None:
+        """Prepare for positions (n, 2) at both ends and triangles (m, 3).
+
+        ``watch(stage)`` is called between steps and may raise ``Cancelled``.
+        """
+
+    def __call__(self, t: float) -> Array:
+        """Return positions (n, 2) at t."""
+        ...
