@@ -17,7 +17,7 @@ import numpy as np
 
 import core
 from core.geometry.rotation import rotate
-from core.morph.motion.rigid import PlainRigid
+from core.morph.motion.rigid import Rigid
 from tests.core.shapes import limb
 
 PAPER_CORRESPONDENCE, PAPER_FRAME = 256.0, 42.0
@@ -52,7 +52,7 @@ def measure(density: int, repeats: int) -> tuple[core.Morph, dict[str, float], d
 def frame_parts(morph: core.Morph, repeats: int) -> dict[str, float]:
     """Return ms of a frame: its ideal gradients, its load, the bare back-substitution, and all."""
     frame = morph.inbetween
-    assert isinstance(frame, PlainRigid)
+    assert isinstance(frame, Rigid)
     ideal = frame.ideal(0.37)
     load = frame.fit.load(ideal)
     moments = cycle(np.linspace(0.1, 0.9, 101))  # the last frame asked for is remembered
