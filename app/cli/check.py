@@ -107,7 +107,7 @@ def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
         "repairs": list(morph.report.repairs),
         "seconds": {
             "solve": solved,
-            "stages": morph.report.timings,
+            "stages": {stage.name: stage.seconds for stage in morph.report.stages},
             "frame": found.seconds_per_frame,
         },
     }

@@ -84,12 +84,15 @@ class ResultSection(Section):
             "folds": self._folds(len(report.folds_source), len(report.folds_target)),
             "mean": _distortion(report.distortion_mean),
             "worst": _distortion(report.distortion_worst),
-            "time": _milliseconds(sum(report.timings.values())),
+            "time": _milliseconds(report.seconds),
             "repairs": "\n".join(report.repairs) or self.tr("none"),
         }
         for name, text in shown.items():
             self._values[name].setText(text)
-        stages = (f"{stage}: {_milliseconds(time)}" for stage, time in report.timings.items())
+        stages = (
+            f"{stage.name}: {_milliseconds(stage.seconds)}, {stage.result}"
+            for stage in report.stages
+        )
         self._values["time"].setToolTip("\n".join(stages))
 
     def _folds(self, source: int, target: int) -> str:

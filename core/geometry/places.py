@@ -12,6 +12,9 @@ from core.geometry.flatten import Polyline, flatten
 from core.geometry.polyline import arc_lengths, nearest_length, points_at
 from core.model.outline import Array, Outline, RingPoint
 
+NODE = 1e-9
+"""A place this near to a node is the node."""
+
 
 @dataclass(frozen=True, eq=False)
 class Track:
@@ -36,10 +39,16 @@ class Track:
         return points_at(self.polyline.points, self.lengths, np.array([self.length_of(at)]))[0]
 
     def place_of(self, length: float) -> float:
-        """Return the place at an arc length, taken modulo the perimeter."""
+        """Return the place at an arc length, taken modulo the perimeter; that of a node exactly."""
         places = np.append(self.polyline.at, float(self.nodes))
         at = float(np.interp(length % self.perimeter, self.lengths, places))
-        return at % self.nodes
+        return float(round(at) if abs(at - round(at)) < NODE else at) % self.nodes
+
+    def nearest(self, point: ArrayLike) -> tuple[float, float]:
+        """Return the place closest to a point (2,), and its distance."""
+        p = np.asarray(point, dtype=float)
+        length, distance = nearest_length(self.polyline.points, self.lengths, p)
+        return self.place_of(length), distance
 
 
 @lru_cache(maxsize=256)
@@ -53,10 +62,6 @@ def tracks(outline: Outline) -> tuple[Track, ...]:
 
 def nearest_place(outline: Outline, point: ArrayLike) -> tuple[RingPoint, float]:
     """Return the place on the outline closest to a point (2,), and its distance."""
-    p = np.asarray(point, dtype=float)
-    found = []
-    for i, track in enumerate(tracks(outline)):
-        length, distance = nearest_length(track.polyline.points, track.lengths, p)
-        found.append((distance, RingPoint(i, track.place_of(length))))
-    distance, place = min(found, key=lambda item: item[0])
-    return place, distance
+    found = [(*track.nearest(point), ring) for ring, track in enumerate(tracks(outline))]
+    at, distance, ring = min(found, key=lambda item: item[1])
+    return RingPoint(ring, at), distance

@@ -33,6 +33,26 @@ class PlacedMark:
     index: int
 
 
+@dataclass(frozen=True)
+class ProposedMark:
+    """A pair of places on the cleaned rings that belong together as far as one can tell."""
+
+    rings: tuple[int, int]
+    lengths: tuple[float, float]
+    confidence: float
+    """In [0, 1]: high at corners that are alike, low along smooth arcs."""
+
+
+@dataclass(frozen=True, eq=False)
+class Correspondence:
+    """Which boundaries belong together."""
+
+    boundaries: list[BoundaryPair]
+    """Ring by ring."""
+    proposed: tuple[ProposedMark, ...]
+    """The marks that were set on the rings on which there were none."""
+
+
 def place_marks(
     outlines: tuple[Outline, Outline],
     ends: tuple[CleanOutline, CleanOutline],
@@ -70,6 +90,22 @@ def place_marks(
     return placed
 
 
+def unplace_marks(
+    proposed: Sequence[ProposedMark],
+    outlines: tuple[Outline, Outline],
+    ends: tuple[CleanOutline, CleanOutline],
+) -> tuple[tuple[RingPoint, RingPoint, float], ...]:
+    """Return where proposed marks lie on the outlines as they were drawn, with their confidence."""
+
+    def place(mark: ProposedMark, side: int) -> RingPoint:
+        ring = mark.rings[side]
+        points = ends[side].rings[ring]
+        point = points_at(points, arc_lengths(points), np.array([mark.lengths[side]]))[0]
+        return RingPoint(ring, tracks(outlines[side])[ring].nearest(point)[0])
+
+    return tuple((place(mark, 0), place(mark, 1), mark.confidence) for mark in proposed)
+
+
 def correspondences(
     source: CleanOutline,
     target: CleanOutline,
@@ -77,8 +113,8 @@ def correspondences(
     labels: Sequence[str],
     density: int,
     watch: Watch = unwatched,
-) -> Iterator[list[BoundaryPair]]:
-    """Yield boundaries that may belong together, ring by ring, the most likely first.
+) -> Iterator[Correspondence]:
+    """Yield boundaries that may belong together, the most likely first.
 
     With marks on the exterior they decide, and there is just one. The edges are split to the
     exteriors' perimeters over ``density``. ``watch(stage)`` is called before every ring is matched
@@ -87,7 +123,10 @@ def correspondences(
     spacing = tuple(float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
     for matches in _matches(source, target, marks, watch):
         try:
-            yield [correspond(match, (spacing[0], spacing[1]), labels) for match in matches]
+            yield Correspondence(
+                [correspond(match.ring, (spacing[0], spacing[1]), labels) for match in matches],
+                tuple(mark for match in matches for mark in match.proposed),
+            )
         except MarkError:
             if any(mark.rings[0] == 0 for mark in marks):
                 raise  # otherwise it was a proposal, and there are others
@@ -95,7 +134,7 @@ def correspondences(
 
 def _matches(
     source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark], watch: Watch
-) -> Iterator[list[MatchedRing]]:
+) -> Iterator[list[_Matched]]:
     exterior = [mark for mark in marks if mark.rings == (0, 0)]
     fixed = [mark.lengths for mark in exterior]
     proposals: list[RingMatch] = []
@@ -108,7 +147,8 @@ def _matches(
         yield [_marked(source, target, exterior), *_holes(source, target, marks, first, watch)]
         return
     for match in proposals:
-        yield [_proposed(source, target, match), *_holes(source, target, marks, match, watch)]
+        first_ring = _proposed(source, target, RingPair(0, 0), *match.marks())
+        yield [first_ring, *_holes(source, target, marks, match, watch)]
     yield [_shifted(source, target, RingPair(0, 0)), *_holes(source, target, marks, None, watch)]
 
 
@@ -118,7 +158,7 @@ def _holes(
     marks: Sequence[PlacedMark],
     exterior: RingMatch | None,
     watch: Watch,
-) -> list[MatchedRing]:
+) -> list[_Matched]:
     """Match the holes, each by its marks, or else by what the exterior's match says of it."""
     known = {mark.rings[0]: mark.rings[1] for mark in marks if mark.rings[0] > 0}
     if exterior is not None:
@@ -137,34 +177,53 @@ def _holes(
         a, b = source.rings[pair.source], target.rings[pair.target]
         found = [match for match in match_rings(a, b, (), pair.rotation) if not match.mirrored]
         matched.append(
-            _with_marks(a, b, *found[0].marks()[:2]) if found else _shifted(source, target, pair)
+            _proposed(source, target, pair, *found[0].marks())
+            if found
+            else _shifted(source, target, pair)
         )
     return matched
 
 
-def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]) -> MatchedRing:
+@dataclass(frozen=True, eq=False)
+class _Matched:
+    ring: MatchedRing
+    proposed: tuple[ProposedMark, ...] = ()
+    """Its marks, if the artist gave none."""
+
+
+def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]) -> _Matched:
     i, j = marks[0].rings
     here, there = np.array([mark.lengths for mark in marks]).T
     names = tuple(mark.index for mark in marks)
-    return MatchedRing(source.rings[i], target.rings[j], here, there, names)
+    return _Matched(MatchedRing(source.rings[i], target.rings[j], here, there, names))
 
 
-def _proposed(source: CleanOutline, target: CleanOutline, match: RingMatch) -> MatchedRing:
-    return _with_marks(source.rings[0], target.rings[0], *match.marks()[:2])
-
-
-def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> MatchedRing:
-    a, b = source.rings[pair.source], target.rings[pair.target]
-    start, end = best_shift(a, b, pair.rotation)
-    return _with_marks(a, b, np.array([start]), np.array([end]))
-
-
-def _with_marks(a: Array, b: Array, here: Array, there: Array) -> MatchedRing:
+def _proposed(
+    source: CleanOutline,
+    target: CleanOutline,
+    pair: RingPair,
+    here: Array,
+    there: Array,
+    confidence: Array,
+) -> _Matched:
     """Count proposed marks from the farthest out, so that the start vertex does not matter."""
+    a, b = source.rings[pair.source], target.rings[pair.target]
     away = points_at(a, arc_lengths(a), here) - resample(a, SAMPLES).mean(axis=0)
     first = int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(a), 9)))
-    here, there = np.roll(here, -first), np.roll(there, -first)
-    return MatchedRing(a, b, here, there, tuple(range(len(here))))
+    here, there, confidence = (np.roll(v, -first) for v in (here, there, confidence))
+    rings = pair.source, pair.target
+    proposed = tuple(
+        ProposedMark(rings, (s, t), c)
+        for s, t, c in zip(here.tolist(), there.tolist(), confidence.tolist(), strict=True)
+    )
+    return _Matched(MatchedRing(a, b, here, there, tuple(range(len(here)))), proposed)
+
+
+def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> _Matched:
+    """Match by arc length from the best cyclic shift on; nothing is sure about it."""
+    a, b = source.rings[pair.source], target.rings[pair.target]
+    start, end = best_shift(a, b, pair.rotation)
+    return _proposed(source, target, pair, *(np.array([v]) for v in (start, end, 0.0)))
 
 
 def _ring(index: int) -> str:

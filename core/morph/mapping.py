@@ -88,7 +88,7 @@ def direct_map(
     log.note("mesh", f"{len(mesh.points) - len(coarse.points)} chords split")
     placed = place(mesh, np.concatenate(target), recipe, watch)
     spread = _distortion(mesh, placed.target)
-    log.note("placement", _verdict(spread))
+    log.note("placement", _verdict(spread), mesh, spread)
     return Map(mesh, placed.target, spread, placed.iterations, tuple(log.stages))
 
 
@@ -106,7 +106,7 @@ def mended_map(
     mesh, image = improve(mesh, image, _max_area(recipe), watch, rounds=1 if direct.sound else 5)
     settled = settle(mesh, image, recipe, watch)
     spread = _distortion(mesh, settled.target)
-    log.note("clean-up", f"{len(mesh.triangles)} triangles, {_verdict(spread)}")
+    log.note("clean-up", f"{len(mesh.triangles)} triangles, {_verdict(spread)}", mesh, spread)
     if spread.max() >= direct.distortion.max():
         return replace(direct, stages=tuple(log.stages))
     history = direct.iterations + settled.iterations
@@ -124,10 +124,17 @@ class _Log:
         self.stages = list(stages)
         self._since = perf_counter()
 
-    def note(self, name: str, result: str) -> None:
-        now = perf_counter()
-        self.stages.append(Stage(name, now - self._since, result))
-        self._since = now
+    def note(
+        self, name: str, result: str, mesh: Mesh | None = None, spread: Array | None = None
+    ) -> None:
+        """Note what a stage did, with the distortion of the map that it left, if it left one."""
+        seconds, self._since = perf_counter() - self._since, perf_counter()
+        if mesh is None or spread is None:
+            self.stages.append(Stage(name, seconds, result))
+            return
+        mean = np.average(spread, weights=Elements.of(mesh.points, mesh.triangles).areas)
+        folds = int(np.isinf(spread).sum())
+        self.stages.append(Stage(name, seconds, result, folds, float(mean)))
 
 
 def _distortion(mesh: Mesh, target: Array) -> Array:

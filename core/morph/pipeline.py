@@ -18,14 +18,18 @@ from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
-from core.morph.boundary import BoundaryPair
-from core.morph.correspondence import correspondences, place_marks
+from core.morph.correspondence import (
+    Correspondence,
+    correspondences,
+    place_marks,
+    unplace_marks,
+)
 from core.morph.mapping import Map, direct_map, mended_map
 from core.morph.morph import Morph
 from core.morph.motion.interpolate import Interpolate
 from core.morph.motion.methods import METHODS
 from core.morph.quality import folds, smallest_angle
-from core.morph.report import Report
+from core.morph.report import Report, Stage
 from core.morph.suggest import mirror_matches_better
 from core.progress import Progress, Watch, silent
 
@@ -64,16 +68,16 @@ def solve_outlines(
     _check_rings(*ends)
     placed = place_marks((source, target), ends, marks, labels)
     clock.start("mapping", 0.1)
-    boundaries = correspondences(*ends, placed, labels, recipe.density, clock.watch)
+    rivals = correspondences(*ends, placed, labels, recipe.density, clock.watch)
     here, there = frames = _Frame.of(ends[0]), _Frame.of(ends[1])
-    boundary, found, tried = _best(boundaries, frames, recipe, clock.watch)
+    taken, found, tried = _best(rivals, frames, recipe, clock.watch)
     guessed = not any(mark.rings == (0, 0) for mark in placed)
     mirror = guessed and found.mean > GOOD and mirror_matches_better(*(e.rings[0] for e in ends))
     clock.start("in-between", 0.9)
     mesh, b = found.mesh, found.mesh.boundary_size
     rest, goal = here.outside(mesh.points), there.outside(found.target)
-    rest[:b] = np.concatenate([pair.source for pair in boundary])
-    goal[:b] = np.concatenate([pair.target for pair in boundary])
+    rest[:b] = np.concatenate([pair.source for pair in taken.boundaries])
+    goal[:b] = np.concatenate([pair.target for pair in taken.boundaries])
     goal_inside = here.inside(goal)
     inbetween = _inbetween(recipe, mesh.points, goal_inside, mesh.triangles, clock.watch)
     clock.stop()
@@ -86,11 +90,11 @@ def solve_outlines(
         distortion_worst=float(found.distortion.max()),
         smallest_angle=min(smallest_angle(p, mesh.triangles) for p in (mesh.points, found.target)),
         iterations=found.iterations,
-        timings=_timings(clock, found),
-        stages=found.stages,
+        stages=_stages(clock, ends, found, tried, recipe),
         tried=tried,
         mirror=mirror,
         repairs=ends[0].repairs + ends[1].repairs,
+        proposed=unplace_marks(taken.proposed, (source, target), ends),
     )
     return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, here.origin, here.unit)
 
@@ -114,38 +118,38 @@ class _Frame:
 
 
 def _best(
-    boundaries: Iterable[list[BoundaryPair]],
+    rivals: Iterable[Correspondence],
     frames: tuple[_Frame, _Frame],
     recipe: Recipe,
     watch: Watch,
-) -> tuple[list[BoundaryPair], Map, int]:
-    """Return the boundary with the best map, that map, and how many were tried."""
+) -> tuple[Correspondence, Map, int]:
+    """Return the correspondence with the best map, that map, and how many were tried."""
     watch("matching")
-    tried: list[tuple[list[BoundaryPair], Map]] = []
-    for boundary in islice(boundaries, MOST_TRIED):
-        tried.append((boundary, direct_map(*_inside(boundary, frames), recipe, watch)))
+    tried: list[tuple[Correspondence, Map]] = []
+    for rival in islice(rivals, MOST_TRIED):
+        tried.append((rival, direct_map(*_inside(rival, frames), recipe, watch)))
         if tried[-1][1].mean < GOOD and abs(tried[-1][1].turn) < UPRIGHT:
             break
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
     best = min(tried, key=_cost)
     mended = [
-        (boundary, mended_map(found, *_inside(boundary, frames), recipe, watch))
-        for boundary, found in (tried if best[1].mean > MEDIOCRE else [best])
+        (rival, mended_map(found, *_inside(rival, frames), recipe, watch))
+        for rival, found in (tried if best[1].mean > MEDIOCRE else [best])
     ]
     return *min(mended, key=_cost), len(tried)
 
 
-def _cost(pair: tuple[list[BoundaryPair], Map]) -> float:
+def _cost(pair: tuple[Correspondence, Map]) -> float:
     return pair[1].cost
 
 
 def _inside(
-    boundary: Sequence[BoundaryPair], frames: tuple[_Frame, _Frame]
+    rival: Correspondence, frames: tuple[_Frame, _Frame]
 ) -> tuple[list[Array], list[Array]]:
     return (
-        [frames[0].inside(pair.source) for pair in boundary],
-        [frames[1].inside(pair.target) for pair in boundary],
+        [frames[0].inside(pair.source) for pair in rival.boundaries],
+        [frames[1].inside(pair.target) for pair in rival.boundaries],
     )
 
 
@@ -187,19 +191,25 @@ def _check_rings(source: CleanOutline, target: CleanOutline) -> None:
         )
 
 
-def _timings(clock: _Clock, found: Map) -> dict[str, float]:
-    """Return seconds by stage; matching includes the rival correspondences that were tried."""
-    outlines, mapping, inbetween = (clock.timings[s] for s in ("outlines", "mapping", "in-between"))
-    stages = {stage.name: stage.seconds for stage in found.stages}
-    matching = mapping - sum(stages.values())
-    return {"outlines": outlines, "matching": matching, **stages, "in-between": inbetween}
+def _stages(
+    clock: _Clock, ends: Sequence[CleanOutline], found: Map, tried: int, recipe: Recipe
+) -> tuple[Stage, ...]:
+    """Return all stages; matching includes the maps of the rivals that were not taken."""
+    repairs, rivals = sum(len(end.repairs) for end in ends), tried - 1
+    matching = clock.seconds["mapping"] - sum(stage.seconds for stage in found.stages)
+    return (
+        Stage("outlines", clock.seconds["outlines"], f"{repairs or 'no'} repairs"),
+        Stage("matching", matching, f"{rivals or 'no'} rival{'s'[: rivals != 1]} tried"),
+        *found.stages,
+        Stage("in-between", clock.seconds["in-between"], recipe.method),
+    )
 
 
 class _Clock:
-    """Times the stages and passes progress on."""
+    """Times the steps and passes progress on."""
 
     def __init__(self, progress: Progress) -> None:
-        self.timings: dict[str, float] = {}
+        self.seconds: dict[str, float] = {}
         self._progress, self._stage, self._since = progress, "", 0.0
         self._fraction = 0.0
 
@@ -210,7 +220,7 @@ class _Clock:
 
     def stop(self) -> None:
         if self._stage:
-            self.timings[self._stage] = perf_counter() - self._since
+            self.seconds[self._stage] = perf_counter() - self._since
 
     def watch(self, step: str) -> None:
         """Report a step of unknown length: each takes a part of what is left."""

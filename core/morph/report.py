@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from core.model import RingPoint
+
 
 @dataclass(frozen=True)
 class Iteration:
@@ -17,12 +19,16 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Stage:
-    """One stage of the mapping."""
+    """One stage of the work."""
 
     name: str
     seconds: float
     result: str
     """What came of it, in words."""
+    folds: int | None = None
+    """Triangles with J ≤ 0 in the target after it, if it left a map, and …"""
+    distortion: float | None = None
+    """… its mean distortion."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +48,20 @@ class Report:
     smallest_angle: float
     """Smallest angle of any triangle at either end, in radians."""
     iterations: tuple[Iteration, ...]
-    timings: dict[str, float]
-    """Seconds by stage, in order."""
     mirror: bool
     """Whether the mirror image of the target would match the source far better."""
     repairs: tuple[str, ...]
     """What was changed in the outlines so that they could be used."""
     stages: tuple[Stage, ...]
-    """How the map was found, and how its mesh was changed on the way."""
+    """In order: how the map was found, and how its mesh was changed on the way."""
     tried: int
     """Correspondences that were compared; 1 when marks decide."""
+    proposed: tuple[tuple[RingPoint, RingPoint, float], ...] = ()
+    """The marks that were used where none were given: a place on the source, one on the target, and
+    in [0, 1] how sure it is that they belong together.
+    """
+
+    @property
+    def seconds(self) -> float:
+        """All the time it took."""
+        return sum(stage.seconds for stage in self.stages)

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.geometry.places import Track, tracks
+from core.geometry.places import tracks
 from core.model.outline import Array, Outline, RingPoint
 from core.morph.marks.chain import Pair
 from core.morph.marks.holes import RingPair, paired_holes
@@ -19,8 +19,6 @@ Marks = Sequence[tuple[RingPoint, RingPoint]]
 FAR_BETTER, BETTER = 0.7, 0.05
 """A mirrored match is offered when it costs less than this part of the best other one, and is
 cheaper by that much."""
-NODE = 1e-9
-"""A place this near to a node is the node."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +77,11 @@ def suggest_for(
             continue
         here, there = tracks(source)[pair.source], tracks(target)[pair.target]
         found += [
-            (_place(here, pair.source, s), _place(there, pair.target, t), float(confidence))
+            (
+                RingPoint(pair.source, here.place_of(s)),
+                RingPoint(pair.target, there.place_of(t)),
+                float(confidence),
+            )
             for s, t, confidence in zip(*match.marks(), strict=True)
         ]
     return found
@@ -96,11 +98,11 @@ def mate(source: Outline, target: Outline, place: RingPoint, marks: Marks = ()) 
     here, there = tracks(source)[pair.source], tracks(target)[pair.target]
     match = _match(source, target, pair, _fixed(source, target, pair, marks))
     if match is not None:
-        return _place(there, pair.target, match.mate(here.length_of(place.at)))
+        return RingPoint(pair.target, there.place_of(match.mate(here.length_of(place.at))))
     if not here.perimeter > 0 or not there.perimeter > 0:
         return RingPoint(pair.target, 0.0)
     share = here.length_of(place.at) / here.perimeter
-    return _place(there, pair.target, share * there.perimeter)
+    return RingPoint(pair.target, there.place_of(share * there.perimeter))
 
 
 def snap(outline: Outline, place: RingPoint, radius: float) -> RingPoint:
@@ -125,13 +127,6 @@ def _ring_pairs(
         return [exteriors]
     known = {a.ring: b.ring for a, b in marks if a.ring > 0 and b.ring > 0}
     return [exteriors, *paired_holes(_rings(source), _rings(target), exterior, known)]
-
-
-def _place(track: Track, ring: int, length: float) -> RingPoint:
-    """Return the place at an arc length; that of a node exactly."""
-    at = track.place_of(length)
-    node = round(at)
-    return RingPoint(ring, float(node % track.nodes) if abs(at - node) < NODE else at)
 
 
 def _rings(outline: Outline) -> list[Array]:

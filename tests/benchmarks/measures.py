@@ -89,6 +89,7 @@ def measure(pair: Pair, frames: int) -> tuple[Row, core.Morph]:
     morph = core.solve(pair.source, pair.target)
     seconds = perf_counter() - start
     report = morph.report
+    milliseconds = {stage.name: 1e3 * stage.seconds for stage in report.stages}
     rest, target = ((end - morph.origin) / morph.unit for end in (morph.rest, morph.target))
     times = np.linspace(0, 1, frames)
     motion, frame_seconds = _timed_motion(morph.at, times)
@@ -115,7 +116,7 @@ def measure(pair: Pair, frames: int) -> tuple[Row, core.Morph]:
             tried=report.tried,
             route=" + ".join(stage.name for stage in report.stages),
             ms=1e3 * seconds,
-            ms_stages=tuple(1e3 * report.timings.get(stage, 0.0) for stage in STAGES),
+            ms_stages=tuple(milliseconds.get(stage, 0.0) for stage in STAGES),
             ms_frame=1e3 * float(np.median(frame_seconds)),
             ms_frame_worst=1e3 * max(frame_seconds),
             frames=frames,

@@ -45,7 +45,8 @@ def measure(density: int, repeats: int) -> tuple[core.Morph, dict[str, float], d
     total = milliseconds(
         lambda: morphs.append(core.solve(source, target, marks, recipe=recipe)), repeats
     )
-    stages = {k: 1e3 * v for k, v in morphs[-1].report.timings.items()} | {"total": total}
+    stages = {stage.name: 1e3 * stage.seconds for stage in morphs[-1].report.stages}
+    stages["total"] = total
     return morphs[-1], stages, frame_parts(morphs[-1], 20 * repeats)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import core
+from core.morph.pipeline import solve_outlines
 from core.morph.quality import crosses_itself, doubled_areas
 from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, square_ring
 
@@ -19,7 +20,11 @@ def test_the_documented_attributes_have_the_documented_shapes():
     assert (report.vertices, report.triangles) == (n, m)
     assert report.folds_source == report.folds_target == ()
     assert report.distortion_worst >= report.distortion_mean >= 1
-    assert set(report.timings) == {"outlines", "matching", "mesh", "placement", "in-between"}
+    stages = [stage.name for stage in report.stages]
+    assert stages == ["outlines", "matching", "mesh", "placement", "in-between"]
+    placement = report.stages[3]
+    assert (placement.folds, placement.distortion) == (0, pytest.approx(report.distortion_mean))
+    assert report.seconds == pytest.approx(sum(stage.seconds for stage in report.stages))
 
 
 def test_holes_map_to_holes_with_marks_on_them():
@@ -148,3 +153,23 @@ def test_a_mirrored_shape_is_said_to_match_better_mirrored_and_others_are_not():
     assert core.solve(flag, flag * [-1, 1]).report.mirror
     assert not core.solve(flag, flag @ rotation(1.0).T).report.mirror
     assert not core.solve(comb(), ellipse()).report.mirror
+
+
+def test_the_marks_that_were_used_are_reported_and_accepting_them_changes_nothing():
+    source = [np.array(ring) for ring in (4 * letter_l(), 0.5 * ellipse() + [2, 2])]
+    source[0] = source[0][::-1]
+    target = [ring @ rotation(0.5).T * [1.2, 1.0] for ring in source]
+    ends = [core.Outline.polygon(*rings) for rings in (source, target)]
+    free = core.solve(*ends)
+    assert {(a.ring, b.ring) for a, b, _ in free.report.proposed} == {(0, 0), (1, 1)}
+    assert all(0 <= confidence <= 1 for _, _, confidence in free.report.proposed)
+    accepted = solve_outlines(*ends, [(a, b) for a, b, _ in free.report.proposed])
+    assert np.array_equal(accepted.triangles, free.triangles)
+    assert np.allclose(accepted.target, free.target, atol=1e-9)
+    assert accepted.report.proposed == ()
+
+
+def test_marks_of_the_artist_are_not_reported_as_proposals():
+    rings = [np.array(ring) for ring in square_ring()]
+    proposed = core.solve(rings, rings, [(0, 0)]).report.proposed
+    assert {(a.ring, b.ring) for a, b, _ in proposed} == {(1, 1)}
