@@ -28,8 +28,9 @@ examples:
   betwixt check jump.betwixt
   betwixt check jump.betwixt --json > report.json
 
-In the JSON report, "folds" and "crossings" are counts frame by frame, "end_errors"
-fractions of the outline's size, "seconds" times.
+In the JSON report, "folds" and "crossings" are counts frame by frame, "places" says
+where they are in the frames that have any, "end_errors" are fractions of the
+outline's size, "seconds" times.
 """
 
 Entry = dict[str, Any]
@@ -78,27 +79,25 @@ def _entries(document: Document, progress: Progress) -> list[Entry]:
 
 def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
     from core.errors import MorphError
-    from core.morph.scene import solve_span, span_of
+    from core.morph.scene import solve_span, timed_span_of
     from core.morph.soundness import check_span
 
-    first, last = (key.frame for key in layer.keyframes[index : index + 2])
-    entry: Entry = {"layer": layer.name, "frames": [first, last], "sound": False}
-    span = span_of(layer, index)
+    timed = timed_span_of(layer, index)
+    entry: Entry = {"layer": layer.name, "frames": [timed.first, timed.last], "sound": False}
     start = perf_counter()
     try:
-        morph = solve_span(span, progress)
+        morph = solve_span(timed.span, progress)
     except MorphError as error:
         return entry | {"error": str(error)}
     solved = perf_counter() - start
-    times = [(frame, layer.progress_at(frame)[1]) for frame in range(first, last)]
-    times.append((last, 1.0))  # that key begins the next span
-    found = check_span(span, morph, times)
+    found = check_span(timed.span, morph, timed.frames())
     return entry | {
         "sound": found.sound,
         "vertices": len(morph.rest),
         "triangles": len(morph.triangles),
         "folds": [check.folds for check in found.frames],
         "crossings": [check.crossings for check in found.frames],
+        "places": {check.frame: check.places.tolist() for check in found.frames if not check.sound},
         "end_errors": {"source": found.source_error, "target": found.target_error},
         "distortion": {
             "mean": _finite(morph.report.distortion_mean),

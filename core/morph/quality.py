@@ -23,7 +23,7 @@ def doubled_areas(points: Array, triangles: Indices) -> Array:
 
 def folds(points: Array, triangles: Indices) -> Indices:
     """Return the indices of triangles without positive area."""
-    return np.flatnonzero(doubled_areas(points, triangles) <= 0)
+    return np.flatnonzero(~(doubled_areas(points, triangles) > 0))  # NaN is no area either
 
 
 def distortion(elements: Elements, x: Array) -> Array:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from core.geometry.flatten import flatten
 from core.geometry.places import nearest_place
-from core.model import Document, Keyframe, Layer, Outline, Recipe, RingPoint
+from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint
 from core.model.outline import Array
 from core.model.picture import Picture, Shape
 from core.progress import Progress, silent
@@ -29,6 +29,21 @@ class Span:
     recipe: Recipe
 
 
+@dataclass(frozen=True)
+class TimedSpan:
+    """A span and when it is seen; compared by value."""
+
+    span: Span
+    first: int
+    last: int
+    easing: Easing
+
+    def frames(self) -> list[tuple[int, float]]:
+        """Return every frame from key to key, and s at it."""
+        length = self.last - self.first
+        return [(self.first + k, self.easing(k / length)) for k in range(length + 1)]
+
+
 MorphOf = Callable[[Span], "Morph | None"]
 """Looks a span's solution up; None while there is none."""
 
@@ -38,6 +53,12 @@ def span_of(layer: Layer, index: int) -> Span:
     source, target = layer.keyframes[index : index + 2]
     pairs = tuple(zip(source.marks, target.marks, strict=True))
     return Span(source.outline, target.outline, pairs, layer.labels, layer.recipe)
+
+
+def timed_span_of(layer: Layer, index: int) -> TimedSpan:
+    """Return span ``index`` of a layer and its timing."""
+    source, target = layer.keyframes[index : index + 2]
+    return TimedSpan(span_of(layer, index), source.frame, target.frame, source.easing)
 
 
 def spans_of(document: Document) -> list[Span]:

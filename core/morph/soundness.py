@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from time import perf_counter
 
 import numpy as np
@@ -12,14 +13,15 @@ import shapely
 from core.geometry.flatten import flatten
 from core.model.outline import Array, Outline
 from core.morph.morph import Morph
-from core.morph.quality import crosses_itself, folds
+from core.morph.quality import folds
 from core.morph.scene import Span
+from core.progress import Progress, silent
 
 END_TOLERANCE = 1e-9
 """Largest distance from a drawn outline, as a fraction of its diagonal."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FrameCheck:
     """One frame of a span."""
 
@@ -28,11 +30,18 @@ class FrameCheck:
     """Triangles without positive area."""
     crossings: int
     """Pairs of boundary edges that cross; touching counts as one."""
+    places: Array
+    """(k, 2) where: the middle of each folded triangle, then each crossing."""
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing is wrong."""
+        return self.folds == self.crossings == 0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SpanCheck:
-    """All frames of a span."""
+    """All frames of a span, in order."""
 
     frames: tuple[FrameCheck, ...]
     source_error: float
@@ -41,40 +50,70 @@ class SpanCheck:
     seconds_per_frame: float
 
     @property
+    def exact(self) -> bool:
+        """Whether both ends are as drawn."""
+        return max(self.source_error, self.target_error) <= END_TOLERANCE
+
+    @property
     def sound(self) -> bool:
         """Whether nothing is wrong."""
-        clean = all(frame.folds == frame.crossings == 0 for frame in self.frames)
-        return clean and max(self.source_error, self.target_error) <= END_TOLERANCE
+        return self.exact and all(frame.sound for frame in self.frames)
 
 
-def check_span(span: Span, morph: Morph, progress: Sequence[tuple[int, float]]) -> SpanCheck:
-    """Look at a span's frames; ``progress`` lists their numbers and their s."""
+def check_span(
+    span: Span,
+    morph: Morph,
+    frames: Sequence[tuple[int, float]],
+    progress: Progress = silent,
+) -> SpanCheck:
+    """Look at a span's frames, in the order in which (number, s) lists them."""
     checks, seconds = [], 0.0
-    for frame, s in progress:
+    for done, (frame, s) in enumerate(frames):
+        progress(done / len(frames), "checking")
         start = perf_counter()
         points = morph.at(s)
         seconds += perf_counter() - start
-        rings = [points[ring] for ring in morph.rings]
-        checks.append(FrameCheck(frame, len(folds(points, morph.triangles)), crossings(rings)))
+        checks.append(check_frame(frame, morph, points))
     return SpanCheck(
-        tuple(checks),
+        tuple(sorted(checks, key=attrgetter("frame"))),
         _end_error(span.source, morph, 0.0),
         _end_error(span.target, morph, 1.0),
         seconds / max(len(checks), 1),
     )
 
 
-def crossings(rings: Sequence[Array]) -> int:
-    """Count the crossings of closed polylines (k, 2), exterior first, with themselves and others.
+def check_frame(frame: int, morph: Morph, points: Array) -> FrameCheck:
+    """Look at one frame of a morph, whose vertices are at (n, 2) points."""
+    folded = folds(points, morph.triangles)
+    middles = points[morph.triangles[folded]].mean(axis=1)
+    if not np.isfinite(points).all():  # nowhere to be found
+        return FrameCheck(frame, len(folded), 0, middles[np.isfinite(middles).all(axis=1)])
+    crossed = crossings([points[ring] for ring in morph.rings])
+    return FrameCheck(frame, len(folded), len(crossed), np.concatenate([middles, crossed]))
+
+
+def crossings(rings: Sequence[Array]) -> Array:
+    """Return (k, 2) where closed polylines (k, 2), exterior first, cross themselves and others.
 
     Rings that only touch, or lie in the wrong place, count as one.
     """
-    if not crosses_itself(rings):
-        return 0
+    polygon = shapely.Polygon(rings[0], rings[1:])
+    if polygon.is_valid:
+        return np.empty((0, 2))
     edges = np.concatenate([np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings])
     segments = shapely.linestrings(edges)
-    pairs = shapely.STRtree(segments).query(segments, predicate="crosses")
-    return max(pairs.shape[1] // 2, 1)
+    one, other = shapely.STRtree(segments).query(segments, predicate="crosses")
+    once = one < other
+    places = shapely.get_coordinates(
+        shapely.intersection(segments[one[once]], segments[other[once]])
+    )
+    return places if len(places) else _named_place(shapely.is_valid_reason(polygon))
+
+
+def _named_place(reason: str) -> Array:
+    """Return (1, 2) the place in a reason such as "Ring Self-intersection[2 0]"."""
+    place = reason[reason.index("[") + 1 : -1].split()
+    return np.array([place], dtype=float)
 
 
 def _end_error(outline: Outline, morph: Morph, s: float) -> float:

@@ -251,6 +251,9 @@ def test_check_says_what_is_not_sound(folder: Path, capsys: pytest.CaptureFixtur
     [span] = json.loads(capsys.readouterr().out)["spans"]
     assert sum(span["folds"]) > 0
     assert span["sound"] is False
+    for frame, places in span["places"].items():
+        found = int(frame) - span["frames"][0]
+        assert len(places) == span["folds"][found] + span["crossings"][found] > 0
     assert cli.run(["check", "a.betwixt"]) == 3
     said = capsys.readouterr().out
     assert "NOT SOUND" in said

@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.errors import Cancelled
 from core.geometry.flatten import flatten
 from core.model import Keyframe, Layer, Outline, Ring
+from core.model.easing import EASE_IN_OUT
 from core.morph.morph import Morph
-from core.morph.scene import Span, solve_span, span_of
-from core.morph.soundness import check_span, crossings
+from core.morph.scene import Span, solve_span, span_of, timed_span_of
+from core.morph.soundness import check_frame, check_span, crossings
 
 SQUARE = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], dtype=float)
 BOW = np.array([[0, 0], [4, 4], [4, 0], [0, 4]], dtype=float)
@@ -22,18 +24,62 @@ def solved(source: Outline, target: Outline) -> tuple[Span, Morph]:
 
 
 @pytest.mark.parametrize(
-    ("rings", "count"),
+    ("rings", "places"),
     [
-        ([SQUARE], 0),
-        ([SQUARE, SQUARE / 4 + 1], 0),
-        ([BOW], 1),
-        ([SQUARE, SQUARE / 2 + 3], 2),
-        ([SQUARE, SQUARE / 4 + 10], 1),  # a hole outside
-        ([np.array([[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]], dtype=float)], 1),  # touching
+        ([SQUARE], []),
+        ([SQUARE, SQUARE / 4 + 1], []),
+        ([BOW], [(2, 2)]),
+        ([SQUARE, SQUARE / 2 + 3], [(3, 4), (4, 3)]),
+        ([SQUARE, SQUARE / 4 + 10], [(10, 10)]),  # a hole outside
+        ([np.array([[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]], dtype=float)], [(2, 0)]),  # touching
     ],
 )
-def test_crossings_are_counted(rings: list[np.ndarray], count: int) -> None:
-    assert crossings(rings) == count
+def test_crossings_are_found_where_they_are(
+    rings: list[np.ndarray], places: list[tuple[int, int]]
+) -> None:
+    assert sorted(map(tuple, crossings(rings))) == places
+
+
+def test_every_crossing_and_fold_of_a_frame_has_its_place() -> None:
+    _, morph = solved(Outline.polygon(SQUARE), Outline.polygon(SQUARE + 9))
+    points = morph.rest.copy()
+    points[np.all(points == [4, 4], axis=1)] = [-1, 1]  # a corner pulled through the side opposite
+    found = check_frame(3, morph, points)
+    assert found.folds > 0
+    assert found.crossings == 2
+    assert found.places.shape == (found.folds + 2, 2)
+    assert np.allclose(found.places[-2:, 0], 0)
+    assert not found.sound
+    nowhere = check_frame(3, morph, np.full_like(points, np.nan))
+    assert not nowhere.sound
+
+
+def test_frames_are_looked_at_in_the_order_asked_for_and_told_in_theirs() -> None:
+    span, morph = solved(Outline.polygon(SQUARE), Outline.polygon(SQUARE + 9))
+    told: list[float] = []
+    found = check_span(span, morph, FRAMES[::-1], lambda fraction, stage: told.append(fraction))
+    assert [frame.frame for frame in found.frames] == [0, 1, 2, 3, 4]
+    assert told == pytest.approx([0, 0.2, 0.4, 0.6, 0.8])
+
+
+def test_a_check_can_be_stopped_at_each_frame() -> None:
+    span, morph = solved(Outline.polygon(SQUARE), Outline.polygon(SQUARE + 9))
+
+    def stop(fraction: float, stage: str) -> None:
+        if fraction > 0.3:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        check_span(span, morph, FRAMES, stop)
+
+
+def test_a_timed_span_has_every_frame_from_key_to_key_as_the_layer_has_them() -> None:
+    keys = [Keyframe(f, Outline.polygon(SQUARE + f), easing=EASE_IN_OUT) for f in (3, 9, 10)]
+    layer = Layer(1, "x", tuple(keys))
+    timed = timed_span_of(layer, 0)
+    assert timed.frames()[:-1] == [(f, layer.progress_at(f)[1]) for f in range(3, 9)]
+    assert timed.frames()[-1] == (9, 1.0)
+    assert timed_span_of(layer, 1).frames() == [(9, 0.0), (10, 1.0)]
 
 
 def test_a_rigid_motion_is_sound() -> None:
