@@ -1,8 +1,11 @@
 """The project file: a zip archive with ``document.json``.
 
-``document.json`` is ``{"format": "betwixt", "version": 1, "document": …}``, the document as its
+``document.json`` is ``{"format": "betwixt", "version": 2, "document": …}``, the document as its
 classes name its fields. The names ``assets/…`` and ``thumbnail.png`` are reserved. A reader
-refuses files of a newer version; within a version, fields may be added if they have a default.
+refuses files of a newer version; within a version, fields may be added if they have a default
+that means what files without them meant.
+
+Version 2 added how spans turn: before it, every centre ran straight.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ import io
 import re
 import zipfile
 import zlib
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -20,11 +24,11 @@ import numpy as np
 
 from core.errors import FileError, Where
 from core.io.replacing import replacing, unreadable
-from core.model import Document
+from core.model import Document, Keyframe, Turning
 from core.model.structure import problems
 
 EXTENSION = ".betwixt"
-VERSION = 1
+VERSION = 2
 
 MAX_BYTES = 256 * 2**20
 """Largest file, and largest document in it when unpacked."""
@@ -99,8 +103,25 @@ def from_bytes(data: bytes, path: Path | str = "") -> Document:
         document = msgspec.json.decode(text, type=_File, dec_hook=_array).document
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise _refused(_readable(str(error)), path) from error
+    if header.version < 2:
+        document = _straight(document)
     _require_sound(document, path)
     return document
+
+
+def _straight(document: Document) -> Document:
+    """Let the centre of every span run straight."""
+
+    def straight(key: Keyframe) -> Keyframe:
+        return replace(key, turning=Turning(path="straight"))
+
+    return replace(
+        document,
+        layers=tuple(
+            replace(layer, keyframes=tuple(map(straight, layer.keyframes)))
+            for layer in document.layers
+        ),
+    )
 
 
 def _unpack(data: bytes, path: Path | str) -> bytes:

@@ -6,6 +6,7 @@ from core.model.layer import Keyframe, Layer
 from core.model.outline import Outline, Ring, RingPoint
 from core.model.recipe import Recipe
 from core.model.style import Style
+from core.model.turning import Turning
 
 __all__ = [
     "Document",
@@ -17,4 +18,5 @@ __all__ = [
     "Ring",
     "RingPoint",
     "Style",
+    "Turning",
 ]

@@ -21,6 +21,7 @@ from core.model.easing import Easing
 from core.model.layer import Keyframe, Layer, mark_labels
 from core.model.outline import MIN_NODES, Outline, Ring, RingPoint
 from core.model.structure import Problem, layer_problems, place_problems, setting_problems
+from core.model.turning import Turning
 
 # -- document and layers -----------------------------------------------------------------------
 
@@ -72,11 +73,13 @@ def update_layer(document: Document, layer_id: int, **changes: Any) -> Document:
 # -- keyframes ---------------------------------------------------------------------------------
 
 
-def insert_keyframe(document: Document, layer_id: int, keyframe: Keyframe) -> Document:
+def insert_keyframe(
+    document: Document, layer_id: int, keyframe: Keyframe, turning: Turning | None = None
+) -> Document:
     """Add a keyframe; it must place every mark of the layer. Its frame must be free.
 
     Inside a span it takes over the later part of that span's timing, so that progress stays what it
-    was at every frame.
+    was at every frame. ``turning`` is how the earlier part of the span turns from now on.
     """
 
     def edit(layer: Layer) -> Layer:
@@ -91,7 +94,9 @@ def insert_keyframe(document: Document, layer_id: int, keyframe: Keyframe) -> Do
         span, t = layer.span_at(new.frame)
         if 0 < t < 1:
             before, after = layer.keyframes[span].easing.split(t)
-            layer, new = _with_key(layer, span, easing=before), replace(new, easing=after)
+            earlier = turning or layer.keyframes[span].turning
+            layer = _with_key(layer, span, easing=before, turning=earlier)
+            new = replace(new, easing=after)
         keyframes = sorted((*layer.keyframes, new), key=lambda key: key.frame)
         return replace(layer, keyframes=tuple(keyframes))
 
@@ -137,6 +142,11 @@ def replace_outline(
 def set_easing(document: Document, layer_id: int, key: int, easing: Easing) -> Document:
     """Set the timing of the span that begins at a keyframe."""
     return _on_key(document, layer_id, key, easing=easing)
+
+
+def set_turning(document: Document, layer_id: int, key: int, turning: Turning) -> Document:
+    """Set how the shape turns in the span that begins at a keyframe."""
+    return _on_key(document, layer_id, key, turning=turning)
 
 
 # -- nodes -------------------------------------------------------------------------------------

@@ -13,17 +13,19 @@ from core.model.easing import LINEAR, Easing
 from core.model.outline import Outline, RingPoint
 from core.model.recipe import Recipe
 from core.model.style import Style
+from core.model.turning import AS_DRAWN, Turning
 
 
 @dataclass(frozen=True)
 class Keyframe:
-    """An outline at a frame, with the layer's marks on it and the easing of the span after it."""
+    """An outline at a frame, the layer's marks on it, and how the span after it eases and turns."""
 
     frame: int
     outline: Outline
     marks: tuple[RingPoint, ...] = ()
     """One place for each of the layer's marks, in their order."""
     easing: Easing = LINEAR
+    turning: Turning = AS_DRAWN
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from core.model.layer import Keyframe, Layer
 from core.model.outline import MIN_NODES, Outline, RingPoint
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Recipe
 from core.model.style import Style
+from core.model.turning import MOST_TURNS, Turning
 
 MAX_FRAME = 1_000_000
 COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
@@ -66,6 +67,7 @@ def _keyframe(path: str, key: Keyframe, labels: tuple[str, ...]) -> Iterator[Pro
     if abs(key.frame) > MAX_FRAME:
         yield f"{path}.frame", f"frame {key.frame} is further than {MAX_FRAME} from zero"
     yield from _easing(f"{path}.easing", key.easing)
+    yield from _turning(f"{path}.turning", key.turning)
     yield from _outline(f"{path}.outline", key.outline)
     if len(key.marks) != len(labels):
         yield f"{path}.marks", f"{len(key.marks)} places for {len(labels)} marks"
@@ -101,6 +103,11 @@ def _easing(path: str, easing: Easing) -> Iterator[Problem]:
     for name in ("y1", "y2"):
         if not isfinite(getattr(easing, name)):
             yield f"{path}.{name}", "not a finite number"
+
+
+def _turning(path: str, turning: Turning) -> Iterator[Problem]:
+    if not 0 <= turning.turns <= MOST_TURNS:
+        yield f"{path}.turns", f"{turning.turns} is not between 0 and {MOST_TURNS}"
 
 
 def _style(path: str, style: Style) -> Iterator[Problem]:

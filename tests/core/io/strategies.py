@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -16,7 +18,9 @@ from core.model import (
     Ring,
     RingPoint,
     Style,
+    Turning,
 )
+from core.model.recipe import Material, Method
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 POSITIVE = st.floats(min_value=1e-300, max_value=1e300)
@@ -34,12 +38,18 @@ def rings(draw: st.DrawFn) -> Ring:
 
 OUTLINES = st.lists(rings(), min_size=1, max_size=2).map(lambda found: Outline(tuple(found)))
 EASINGS = st.builds(Easing, FRACTION, FINITE, FRACTION, FINITE, st.booleans())
+TURNINGS = st.builds(
+    Turning,
+    st.sampled_from(["automatic", "clockwise", "counter-clockwise"]),
+    st.integers(0, 100),
+    st.sampled_from(["arc", "straight"]),
+)
 STYLES = st.builds(Style, COLOURS, COLOURS, st.floats(0, 1e300))
 RECIPES = st.builds(
     Recipe,
-    st.sampled_from(["arap", "linear"]),
+    st.sampled_from(get_args(Method)),
     st.integers(3, 10_000),
-    st.sampled_from(["symmetric-dirichlet", "st-venant-kirchhoff"]),
+    st.sampled_from(get_args(Material)),
     POSITIVE,
     st.floats(0, 1e300),
 )
@@ -53,7 +63,7 @@ def keyframes(draw: st.DrawFn, frame: int, marks: int) -> Keyframe:
         ring = draw(st.integers(0, len(outline.rings) - 1))
         at = draw(st.floats(0, len(outline.rings[ring]), exclude_max=True))
         places.append(RingPoint(ring, at))
-    return Keyframe(frame, outline, tuple(places), draw(EASINGS))
+    return Keyframe(frame, outline, tuple(places), draw(EASINGS), draw(TURNINGS))
 
 
 @st.composite

@@ -16,7 +16,18 @@ from hypothesis import strategies as st
 
 from core.errors import FileError
 from core.io import project
-from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, Ring, RingPoint, Style
+from core.model import (
+    Document,
+    Easing,
+    Keyframe,
+    Layer,
+    Outline,
+    Recipe,
+    Ring,
+    RingPoint,
+    Style,
+    Turning,
+)
 from tests.core.io.strategies import documents
 
 SQUARE = Outline.polygon([[0, 0], [10, 0], [10, 10], [0, 10]])
@@ -122,7 +133,13 @@ def test_a_file_of_version_1_still_opens() -> None:
         },
     }
     ring = Ring([[0, 0], [9, 0], [0, 9]], [[0, 0], [1, 2], [0, 0]], [[3, 4], [0, 0], [0, 0]])
-    key = Keyframe(4, Outline((ring,)), (RingPoint(0, 1.25),), Easing(0.1, 0.2, 0.3, 0.4, True))
+    key = Keyframe(
+        4,
+        Outline((ring,)),
+        (RingPoint(0, 1.25),),
+        Easing(0.1, 0.2, 0.3, 0.4, True),
+        Turning(path="straight"),
+    )
     layer = Layer(
         3,
         "Ω",
@@ -147,6 +164,7 @@ def test_the_file_holds_every_field_of_the_model() -> None:
         (Style, layer["style"]),
         (Recipe, layer["recipe"]),
         (Easing, layer["keyframes"][0]["easing"]),
+        (Turning, layer["keyframes"][0]["turning"]),
     ):
         assert set(found) == {field.name for field in fields(kind)}
 
@@ -163,6 +181,8 @@ def test_the_file_holds_every_field_of_the_model() -> None:
         ("layers.0.keyframes.0.marks.1.at", 4.5, "keyframes[0].marks[1].at: 4.5 is not on the"),
         ("layers.0.keyframes.0.marks", [], "keyframes[0].marks: 0 places for 2 marks"),
         ("layers.0.keyframes.0.easing.x1", 2, "easing.x1: 2.0 is not between 0 and 1"),
+        ("layers.0.keyframes.0.turning.turns", -1, "turning.turns: -1 is not between 0 and"),
+        ("layers.0.keyframes.0.turning.path", "zigzag", "turning.path: Invalid enum value"),
         ("layers.0.keyframes.0.outline.rings", [], "outline.rings: an outline needs at least one"),
         (
             "layers.0.keyframes.1.outline.rings.0.points.2.1",

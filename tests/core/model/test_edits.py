@@ -12,7 +12,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.errors import EditError
-from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Style, edits
+from core.model import (
+    Document,
+    Easing,
+    Keyframe,
+    Layer,
+    Outline,
+    Recipe,
+    RingPoint,
+    Style,
+    Turning,
+    edits,
+)
 from core.model.outline import MIN_NODES
 from core.model.structure import problems
 from tests.core.model.shapes import documents, easings, layers, outlines, places
@@ -31,6 +42,7 @@ def calls(draw: st.DrawFn, document: Document) -> Call:
     node = (place.ring, int(place.at))
     options: list[Call] = [
         (edits.set_easing, (key, Easing(0.1, 0.2, 0.3, 0.4))),
+        (edits.set_turning, (key, Turning("clockwise", 3, "straight"))),
         (edits.move_nodes, (key, place.ring, [node[1]], (3.0, -4.0))),
         (edits.set_handles, (key, node, (1.0, 2.0), (3.0, 4.0))),
         (edits.insert_node, (key, place)),
@@ -467,3 +479,11 @@ def test_moving_a_mark_moves_that_mark_on_that_keyframe_only(
     place = data.draw(places(outline))
     after = edits.move_mark(one_key(outline, marks), 1, 0, mark, place).layers[0].keyframes[0]
     assert list(after.marks) == [*marks[:mark], place, *marks[mark + 1 :]]
+
+
+def test_a_key_put_into_a_span_parts_its_turning():
+    keys = Keyframe(1, TRIANGLE, turning=Turning("clockwise", 2)), Keyframe(9, TRIANGLE)
+    earlier, later = Turning("clockwise", 1), Turning("clockwise")
+    new = Keyframe(5, TRIANGLE, turning=later)
+    after = edits.insert_keyframe(Document((Layer(1, "L", keys),)), 1, new, earlier).layers[0]
+    assert [key.turning for key in after.keyframes[:2]] == [earlier, later]
