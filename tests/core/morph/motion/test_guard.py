@@ -6,14 +6,14 @@ import pytest
 import core
 from core.fem.elements import Elements, determinants
 from core.fem.energies.fold_barrier import REACH
-from core.geometry.polyline import arc_lengths, signed_area
 from core.geometry.rotation import rotate
-from core.morph.boundary import MatchedRing, correspond
-from core.morph.mapping import direct_map
+from core.geometry.triangulation import split_chords, triangulate
 from core.morph.motion.guard import FoldGuard
 from core.morph.motion.rigid import Rigid
+from core.morph.placement import place
 from core.morph.quality import folds
-from tests.core.shapes import comb, limb
+from tests.core.morph.polygons import comb, square
+from tests.core.shapes import limb
 
 TIMES = np.linspace(0, 1, 49)
 
@@ -33,13 +33,10 @@ def solve(seed: int, method: str) -> core.Morph:
 
 def poor_map() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return a map without folds, but with triangles so ill shaped that frames come close."""
-    teeth = (comb(3) - comb(3).mean(axis=0)) / np.sqrt(signed_area(comb(3)))
-    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
-    ring = MatchedRing(teeth, square, arc_lengths(teeth)[:2], arc_lengths(square)[:2], marks=(0, 1))
-    boundary = correspond(ring, (0.1, 0.05), "ab")
-    found = direct_map([boundary.source], [boundary.target], core.Recipe(), lambda stage: None)
-    assert found.sound
-    return found.mesh.points, found.target, found.mesh.triangles
+    mesh = split_chords(triangulate([comb(5, 72)], 1 / 400))
+    target = place(mesh, np.roll(square(72), 5, axis=0), core.Recipe()).target
+    assert not len(folds(target, mesh.triangles))
+    return mesh.points, target, mesh.triangles
 
 
 def folded_frames(morph: core.Morph) -> int:
