@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
 from app.fields.choice import Choice
@@ -23,17 +24,7 @@ class MappingSection(Section):
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(self.tr("Mapping"), workspace, parent)
-        self.method = Choice(
-            self.tr("Method"),
-            [
-                (self.tr("As rigid as possible"), "arap"),
-                (self.tr("Rigid, plain form"), "plain arap"),
-                (self.tr("Straight paths"), "linear"),
-            ],
-        )
-        self.method.setToolTip(
-            self.tr("How in-betweens are made: as rigidly as possible, or on straight paths")
-        )
+        self.method = self._method()
         self.method.edited.connect(self._set_method)
         self.density = NumberField(self.tr("Mesh density"), LEAST_DENSITY, MOST_DENSITY, step=16)
         self.density.setToolTip(
@@ -57,6 +48,28 @@ class MappingSection(Section):
         self.add_row(self.tr("Density"), self.density)
         self.add_row(self.tr("Material"), self.material)
         self._labels = (self.add_row("μ", self.mu), self.add_row("λ", self.lam))
+
+    def _method(self) -> Choice:
+        methods = [
+            (
+                self.tr("As rigid as possible"),
+                "arap",
+                self.tr("Turns and stretches evenly; never folds"),
+            ),
+            (self.tr("Rigid, plain form"), "plain arap", self.tr("As the paper has it; may fold")),
+            (self.tr("Straight paths"), "linear", self.tr("To compare with: what turns, shrinks")),
+            (
+                self.tr("Lengths and angles"),
+                "intrinsic",
+                self.tr("To compare with: sees the outline alone, edge by edge"),
+            ),
+        ]
+        box = Choice(self.tr("Method"), [(text, value) for text, value, _ in methods])
+        for i, (_, _, purpose) in enumerate(methods):
+            box.setItemData(i, purpose, Qt.ItemDataRole.ToolTipRole)
+        lines = "\n".join(f"{text}: {purpose}" for text, _, purpose in methods)
+        box.setToolTip(self.tr("How in-betweens are made") + "\n" + lines)
+        return box
 
     @staticmethod
     def _stiffness(name: str, least: float) -> NumberField:

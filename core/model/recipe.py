@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-Method = Literal["arap", "plain arap", "linear"]
+Method = Literal["arap", "plain arap", "linear", "intrinsic"]
 Material = Literal["symmetric-dirichlet", "st-venant-kirchhoff"]
 
 LEAST_DENSITY, MOST_DENSITY = 3, 10_000
@@ -17,8 +17,8 @@ class Recipe:
     """Settings of the mapping and of the in-betweens."""
 
     method: Method = "arap"
-    """How in-betweens are made: as rigidly as possible; the same in the paper's plain form; or on
-    straight vertex paths."""
+    """How in-betweens are made: as rigidly as possible; the same in the paper's plain form; on
+    straight vertex paths; or by the outline's edge lengths and turning angles."""
     density: int = 128
     """Boundary vertices to aim for: the outline's edges are split to perimeter / density."""
     material: Material = "symmetric-dirichlet"

@@ -2,6 +2,7 @@
 
 from core.model.recipe import Method
 from core.morph.motion.interpolate import Interpolate
+from core.morph.motion.intrinsic import Intrinsic
 from core.morph.motion.linear import Linear
 from core.morph.motion.rigid import PlainRigid, Rigid
 
@@ -9,4 +10,5 @@ METHODS: dict[Method, type[Interpolate]] = {
     "arap": Rigid,
     "plain arap": PlainRigid,
     "linear": Linear,
+    "intrinsic": Intrinsic,
 }

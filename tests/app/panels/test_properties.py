@@ -142,6 +142,14 @@ def test_every_recipe_is_shown_as_it_is(
     assert layer(workspace).recipe == recipe
 
 
+def test_every_method_says_what_it_is_for(panel: PropertiesPanel) -> None:
+    box = panel.mapping.method
+    assert box.count() == len(get_args(Method))
+    for i in range(box.count()):
+        purpose = box.itemData(i, Qt.ItemDataRole.ToolTipRole)
+        assert f"{box.itemText(i)}: {purpose}" in box.toolTip()
+
+
 def test_numbers_that_a_file_holds_are_shown_as_they_are(
     panel: PropertiesPanel, workspace: Workspace
 ) -> None:

@@ -15,7 +15,11 @@ def size(points):
     return np.hypot(*np.ptp(points, axis=0))
 
 
-GROWTH = {"arap": lambda t, k: k**t, "plain arap": lambda t, k: 1 - t + t * k}
+GROWTH = {
+    "arap": lambda t, k: k**t,
+    "plain arap": lambda t, k: 1 - t + t * k,
+    "intrinsic": lambda t, k: 1 - t + t * k,
+}
 
 
 @pytest.mark.parametrize("method", GROWTH)
@@ -43,7 +47,7 @@ def _mass(morph):
     return mass / mass.sum()
 
 
-@pytest.mark.parametrize("method", ["arap", "plain arap", "linear"])
+@pytest.mark.parametrize("method", ["arap", "plain arap", "linear", "intrinsic"])
 def test_both_ends_are_exactly_what_was_drawn(method):
     source, target = limb(0.0) + 300, limb(2.5, n=11) * 7 - 40
     morph = core.solve(source, target, [(0, 0), (15, 10)], recipe=core.Recipe(method=method))

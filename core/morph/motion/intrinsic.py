@@ -1,0 +1,147 @@
+"""The boundary by its edge lengths and turning angles (Sederberg et al. 1993): to compare with.
+
+T. W. Sederberg, P. Gao, G. Wang and H. Mu, "2-D shape blending: an intrinsic solution to the vertex
+path problem", SIGGRAPH 1993. It knows the outline alone, so limbs keep their length while the area
+may change. Points are complex numbers here.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.fem.elements import Elements
+from core.fem.newton import factorise
+from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+from core.morph.motion.course import Course
+from core.progress import Watch, unwatched
+
+STIFFEST = 1e-4
+"""How much an edge that keeps its length may give way, relative to that length."""
+
+
+class Intrinsic:
+    """Interpolates every ring by its lengths and angles; inner vertices follow harmonically.
+
+    All is seen from a frame that turns with the exterior ring, so rigid motion is reproduced.
+    """
+
+    def __init__(
+        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+    ) -> None:
+        before, after = Elements.of(rest, triangles), Elements.of(target, triangles)
+        self._course = Course(before, after, rest, target)
+        rings = boundary_rings(triangles)
+        z, w = _complex(rest), _complex(target)
+        exterior = max(rings, key=lambda ring: np.ptp(z[ring].real))
+        self._turn = _mean_turn(z[exterior], w[exterior])
+        w = w * np.exp(-1j * self._turn)
+        self._paths = [(ring, _RingPath(z[ring], w[ring])) for ring in rings]
+        self._extension = _Extension(before, np.concatenate(rings))
+        self._drift = w - self._extension(w)
+
+    def __call__(self, t: float) -> Array:
+        """Return positions (n, 2) at t."""
+        x = np.zeros_like(self._drift)
+        for ring, path in self._paths:
+            x[ring] = path(t)
+        # the target's inner vertices need not lie where its boundary alone would put them
+        x = (self._extension(x) + t * self._drift) * np.exp(1j * t * self._turn)
+        return self._course.place(np.column_stack([x.real, x.imag]), t)
+
+
+class _RingPath:
+    """A closed polygon whose edge lengths and turning angles change evenly."""
+
+    def __init__(self, rest: Complex, target: Complex) -> None:
+        before, after = (np.roll(ring, -1) - ring for ring in (rest, target))
+        self._lengths = np.abs(before), np.abs(after)
+        self._start, self._turned = _directions(before), _turns(rest, target)
+        self._mass = sum(_mass(lengths) for lengths in self._lengths) / 2
+        self._centres = self._mass @ rest, self._mass @ target
+        mean = sum(self._lengths) / 2
+        change = np.abs(self._lengths[1] - self._lengths[0])
+        self._give = np.maximum(change, STIFFEST * mean) ** 2
+
+    def __call__(self, t: float) -> Complex:
+        """Return the vertices (k,) at t."""
+        ahead = np.exp(1j * (self._start + t * self._turned))
+        lengths = (1 - t) * self._lengths[0] + t * self._lengths[1]
+        edges = (lengths - self._correction(lengths, ahead)) * ahead
+        ring = np.cumsum(edges) - edges
+        return ring + (1 - t) * self._centres[0] + t * self._centres[1] - self._mass @ ring
+
+    def _correction(self, lengths: Array, ahead: Complex) -> Array:
+        """Return what to take off the lengths (k,) so that the polygon closes.
+
+        The least Σ (s / change of length)² for which Σ (length − s) · direction = 0, by Lagrange.
+        """
+        u = np.stack([ahead.real, ahead.imag])
+        multipliers = np.linalg.solve((self._give * u) @ u.T, u @ lengths)
+        return self._give * (multipliers @ u)
+
+
+class _Extension:
+    """Inner vertices of a mesh where its boundary puts them: harmonic, factored once."""
+
+    def __init__(self, elements: Elements, border: Indices) -> None:
+        self._border = border
+        self._inner = np.setdiff1d(np.arange(elements.vertices), border)
+        rows = elements.laplacian[self._inner]
+        self._load = rows[:, border]
+        self._factor = factorise(rows[:, self._inner].tocsc()) if len(self._inner) else None
+
+    def __call__(self, z: Complex) -> Complex:
+        """Return positions (n,) with the boundary of z (n,) and harmonic inside."""
+        z = z.copy()
+        if self._factor is not None:
+            load = self._load @ z[self._border]
+            solved = self._factor.solve(-np.column_stack([load.real, load.imag]))
+            z[self._inner] = _complex(solved)
+        return z
+
+
+def boundary_rings(triangles: Indices) -> list[Indices]:
+    """Return the rings of vertices (k,) around triangles (m, 3), with the inside to their left."""
+    tail, head = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    n = int(triangles.max()) + 1
+    single = ~np.isin(tail * n + head, head * n + tail)
+    after = dict(zip(tail[single].tolist(), head[single].tolist(), strict=True))
+    rings = []
+    while after:
+        start, following = after.popitem()
+        ring = [start]
+        while following != start:
+            ring.append(following)
+            following = after.pop(following)
+        rings.append(np.array(ring))
+    return rings
+
+
+def _complex(points: Array) -> Complex:
+    return points[:, 0] + 1j * points[:, 1]
+
+
+def _directions(edges: Complex) -> Array:
+    """Return the angles (k,) of edges, unwrapped along the ring."""
+    turning = np.angle(edges[1:] / edges[:-1])
+    return np.angle(edges[0]) + np.concatenate([[0.0], np.cumsum(turning)])
+
+
+def _turns(rest: Complex, target: Complex) -> Array:
+    """Return how far each edge turns (k,); on the mean between −π and π."""
+    before, after = (np.roll(ring, -1) - ring for ring in (rest, target))
+    turns = _directions(after) - _directions(before)
+    mean = np.average(turns, weights=np.abs(before) + np.abs(after))
+    return turns - 2 * np.pi * np.floor((mean + np.pi) / (2 * np.pi))
+
+
+def _mean_turn(rest: Complex, target: Complex) -> float:
+    weights = sum(np.abs(np.roll(ring, -1) - ring) for ring in (rest, target))
+    return float(np.average(_turns(rest, target), weights=weights))
+
+
+def _mass(lengths: Array) -> Array:
+    """Return each vertex's share (k,) of the perimeter."""
+    return (lengths + np.roll(lengths, 1)) / (2 * lengths.sum())
