@@ -62,47 +62,87 @@ def mirror_matches_better(source: Array, target: Array) -> bool:
     return any(candidate.mirrored for candidate in suggest_marks(source, target))
 
 
+@dataclass(frozen=True, eq=False)
+class OutlineMatch:
+    """How two outlines belong together, ring by ring, led through the marks that they have."""
+
+    source: Outline
+    target: Outline
+    rings: tuple[tuple[RingPair, RingMatch | None], ...]
+    """Exteriors first; there is no match where a ring encloses nothing."""
+
+    def proposals(self) -> list[tuple[RingPoint, RingPoint, float]]:
+        """Return the marks that are needed besides those it is led through, with confidences."""
+        found = []
+        for pair, match in self.rings:
+            if match is None:
+                continue
+            here, there = tracks(self.source)[pair.source], tracks(self.target)[pair.target]
+            found += [
+                (
+                    RingPoint(pair.source, here.place_of(s)),
+                    RingPoint(pair.target, there.place_of(t)),
+                    float(confidence),
+                )
+                for s, t, confidence in zip(*match.marks(), strict=True)
+            ]
+        return found
+
+    def mate(self, place: RingPoint) -> RingPoint:
+        """Return the place on the target that belongs to one on the source.
+
+        The mate of a corner is a corner wherever there is one like it.
+        """
+        known = {pair.source: (pair.target, match) for pair, match in self.rings}
+        ring, match = known.get(place.ring, (min(place.ring, len(self.target.rings) - 1), None))
+        here, there = tracks(self.source)[place.ring], tracks(self.target)[ring]
+        if not here.perimeter > 0 or not there.perimeter > 0:
+            return RingPoint(ring, 0.0)
+        length = here.length_of(place.at)
+        image = match.mate(length) if match else length / here.perimeter * there.perimeter
+        return RingPoint(ring, there.place_of(image))
+
+    def reversed(self) -> OutlineMatch:
+        """Return the same match, seen from the target."""
+        return OutlineMatch(
+            self.target,
+            self.source,
+            tuple((pair.reversed(), match and match.reversed()) for pair, match in self.rings),
+        )
+
+
+def match_outlines(
+    source: Outline, target: Outline, marks: Marks = (), ring: int | None = None
+) -> OutlineMatch:
+    """Match two outlines: the exteriors, then each hole with the one that lies where the exterior's
+    match carries it; ``marks`` decide where there are any.
+
+    With ``ring``, only as far as is needed to find the mates of places on that ring.
+    """
+    return OutlineMatch(
+        source,
+        target,
+        tuple(
+            (pair, _match(source, target, pair, _fixed(source, target, pair, marks)))
+            for pair in _ring_pairs(source, target, marks, ring)
+            if ring is None or pair.source == ring
+        ),
+    )
+
+
 def suggest_for(
     source: Outline, target: Outline, marks: Marks = ()
 ) -> list[tuple[RingPoint, RingPoint, float]]:
-    """Propose the marks that two outlines need besides those they have, with their confidence.
-
-    The exteriors are matched, then each hole with the one that lies where the exterior's match
-    carries it.
-    """
-    found = []
-    for pair in _ring_pairs(source, target, marks):
-        match = _match(source, target, pair, _fixed(source, target, pair, marks))
-        if match is None:
-            continue
-        here, there = tracks(source)[pair.source], tracks(target)[pair.target]
-        found += [
-            (
-                RingPoint(pair.source, here.place_of(s)),
-                RingPoint(pair.target, there.place_of(t)),
-                float(confidence),
-            )
-            for s, t, confidence in zip(*match.marks(), strict=True)
-        ]
-    return found
+    """Propose the marks that two outlines need besides those they have, with their confidence."""
+    return match_outlines(source, target, marks).proposals()
 
 
 def mate(source: Outline, target: Outline, place: RingPoint, marks: Marks = ()) -> RingPoint:
     """Propose the place on the target that belongs to ``place`` on the source.
 
-    It follows the match of both rings through the marks already set; the mate of a corner is a
-    corner wherever there is one like it.
+    It follows the match of both rings through the marks already set.
     """
-    pairs = {pair.source: pair for pair in _ring_pairs(source, target, marks, place.ring)}
-    pair = pairs.get(place.ring) or RingPair(place.ring, min(place.ring, len(target.rings) - 1))
-    here, there = tracks(source)[pair.source], tracks(target)[pair.target]
-    match = _match(source, target, pair, _fixed(source, target, pair, marks))
-    if match is not None:
-        return RingPoint(pair.target, there.place_of(match.mate(here.length_of(place.at))))
-    if not here.perimeter > 0 or not there.perimeter > 0:
-        return RingPoint(pair.target, 0.0)
-    share = here.length_of(place.at) / here.perimeter
-    return RingPoint(pair.target, there.place_of(share * there.perimeter))
+    return match_outlines(source, target, marks, place.ring).mate(place)
 
 
 def snap(outline: Outline, place: RingPoint, radius: float) -> RingPoint:

@@ -29,6 +29,11 @@ class RingPair:
     rotation: complex | None = None
     """How the source's is turned, of length one, if it is known."""
 
+    def reversed(self) -> RingPair:
+        """Return the pair, seen from the target."""
+        turned = None if self.rotation is None else self.rotation.conjugate()
+        return RingPair(self.target, self.source, turned)
+
 
 def paired_holes(
     source: Sequence[Array], target: Sequence[Array], exterior: RingMatch, known: Mapping[int, int]

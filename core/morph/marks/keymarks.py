@@ -56,6 +56,10 @@ class Route:
         )
         return cls(replace(match, source=at, target=image), *kinds)
 
+    def reversed(self) -> Route:
+        """Return the same route, seen from the target."""
+        return replace(self, match=self.match.reversed())
+
     def key_knots(self) -> Indices:
         """Return which knots suffice as marks, besides the fixed ones, in order."""
         s, t = self.match.source, self.match.target

@@ -64,6 +64,10 @@ class Match:
         start = self.target[0]
         return np.mod(np.interp(start + np.mod(at - start, 1.0), self.target, self.source), 1.0)
 
+    def reversed(self) -> Match:
+        """Return the same correspondence, seen from the target."""
+        return replace(self, source=self.target, target=self.source, at=self.image(self.at))
+
     def sureness(self, at: Array) -> Array:
         """Return the confidence at places on the source (j,)."""
         return np.interp(np.mod(at, 1.0), self.at, self.confidence, period=1.0)

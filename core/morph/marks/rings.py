@@ -75,6 +75,10 @@ class RingMatch:
         route = Route.of(self.source, self.target, self.route.match, pairs)
         return replace(self, route=route)
 
+    def reversed(self) -> RingMatch:
+        """Return the same match, seen from the target."""
+        return RingMatch(self.target, self.source, self.perimeters[::-1], self.route.reversed())
+
     def mate(self, length: float) -> float:
         """Return where an arc length belongs; that of a corner is drawn to a corner like it."""
         at = self.source.translated(np.array([length / self.perimeters[0]]))
