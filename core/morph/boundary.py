@@ -16,8 +16,9 @@ from core.geometry.polyline import arc_lengths, points_at
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
-SNAP = 0.35
-"""Source and target vertices closer than this fraction of the spacing become one."""
+SNAP = 0.2
+"""Source and target vertices closer than this fraction of the spacing become one: more would tell
+in the distortion, less in the angles."""
 COINCIDENT = 1e-7
 """Marks closer than this fraction of the perimeter lie on top of each other."""
 
@@ -46,6 +47,8 @@ class MatchedRing:
     """(j,) arc lengths, in the same order."""
     marks: tuple[int, ...]
     """(j,) indices of the marks, to name them in errors."""
+    proposed: bool = False
+    """Whether nobody set the marks: then they may move to a vertex beside them."""
 
 
 def correspond(
@@ -60,14 +63,14 @@ def correspond(
     order = np.roll(order, -int(np.argmin(order)))  # from the first mark, wherever the list starts
     _check_apart(ring, labels)
     _check_order(ring, order, labels)
-    anchors = np.column_stack([ring.source_marks[order], ring.target_marks[order]])
-    anchors -= anchors[0]
-    source, target = (
-        _Curve(points, marks[order[0]])
-        for points, marks in ((ring.source, ring.source_marks), (ring.target, ring.target_marks))
-    )
+    outlines, marks = (ring.source, ring.target), (ring.source_marks, ring.target_marks)
+    reach = SNAP * np.minimum(spacing, [_median_edge(points) for points in outlines])
+    if ring.proposed:
+        marks = tuple(map(_drawn, marks, outlines, reach))
+    source, target = map(_Curve, outlines, (at[order[0]] for at in marks))
+    anchors = np.column_stack([at[order] - at[order[0]] for at in marks])
     anchors = np.mod(anchors, [source.perimeter, target.perimeter])
-    anchors = _snapped(anchors, source, target, max(spacing))
+    anchors = _joined(anchors, source, target, reach)
     pairs = _densified(_union(anchors, source, target), source, target, spacing)
     return BoundaryPair(source.points_at(pairs[:, 0]), target.points_at(pairs[:, 1]))
 
@@ -158,29 +161,51 @@ def _closed(anchors: Array, source: _Curve, target: _Curve) -> Array:
     return np.vstack([anchors, [[source.perimeter, target.perimeter]]])
 
 
-def _snapped(anchors: Array, source: _Curve, target: _Curve, spacing: float) -> Array:
-    """Add mutually nearest vertices of both outlines as anchors (k, 2), so no slivers arise."""
-    ends = _closed(anchors, source, target)
-    a = source.vertices
-    b = np.interp(target.vertices, ends[:, 1], ends[:, 0])  # measured along the source
-    scale = source.perimeter / target.perimeter
-    reach = SNAP * min(spacing, spacing * scale, *(_median_gap(v) for v in (a, b)))
-    near_b, near_a = _nearest(a, b), _nearest(b, a)
-    i = np.flatnonzero(near_a[near_b] == np.arange(len(a)))
-    j = near_b[i]
-    close = np.abs(a[i] - b[j]) <= reach
-    found = np.column_stack([a[i], target.vertices[j]])[close]
-    # both must lie strictly inside the same arc, or the order at a mark would be torn
-    ends, places = ends / ends[-1], found / ends[-1]
-    arc = [np.searchsorted(ends[:, k], places[:, k] - 1e-12, side="right") for k in (0, 1)]
-    beyond = [np.searchsorted(ends[:, k], places[:, k] + 1e-12, side="right") for k in (0, 1)]
-    inside = (arc[0] == arc[1]) & (beyond[0] == arc[0]) & (beyond[1] == arc[1])
-    joined = np.vstack([anchors, found[inside]])
-    return joined[np.argsort(joined[:, 0], kind="stable")]
+def _drawn(marks: Array, points: Array, reach: float) -> Array:
+    """Move marks (j,) on a ring to its vertices within reach, where just one goes to each."""
+    lengths = arc_lengths(points)
+    closest = lengths[_nearest(np.mod(marks, lengths[-1]), lengths)]
+    moved = np.where(np.abs(closest - marks) <= reach, np.mod(closest, lengths[-1]), marks)
+    _, index, count = np.unique(moved, return_inverse=True, return_counts=True)
+    return np.where(count[index] == 1, moved, marks)
 
 
-def _median_gap(values: Array) -> float:
-    return float(np.median(np.diff(values))) if len(values) > 1 else np.inf
+def _joined(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Array:
+    """Add vertices of both outlines that nearly meet as anchors (k, 2), so that no slivers arise.
+
+    Two are joined when each is the other's nearest of those left between the same anchors, and
+    within reach on both outlines. That moves their neighbours, which may then meet, too.
+    """
+    while True:
+        ends = _closed(anchors, source, target)
+        (a, b), (arc, arc_b) = zip(
+            *(_between(curve.vertices, ends[:, k]) for k, curve in enumerate((source, target))),
+            strict=True,
+        )
+        if not (len(a) and len(b)):
+            return anchors
+        on_source, on_target = np.interp(b, *ends.T[::-1]), np.interp(a, *ends.T)
+        i = np.arange(len(a))
+        j = _nearest(a, on_source)
+        mutual = (_nearest(on_source, a)[j] == i) & (arc == arc_b[j])
+        gaps = np.abs(np.column_stack([a - on_source[j], on_target - b[j]]))
+        i = np.flatnonzero(mutual & (gaps <= reach).all(axis=1))
+        if not len(i):
+            return anchors
+        anchors = np.vstack([anchors, np.column_stack([a[i], b[j[i]]])])
+        anchors = anchors[np.argsort(anchors[:, 0], kind="stable")]
+
+
+def _between(places: Array, ends: Array) -> tuple[Array, Indices]:
+    """Return the places (k,) that are not at one of the ends, and after which end each lies."""
+    margin = 1e-12 * ends[-1]
+    arc = np.searchsorted(ends, places - margin, side="right")
+    inside = np.searchsorted(ends, places + margin, side="right") == arc
+    return places[inside], arc[inside]
+
+
+def _median_edge(points: Array) -> float:
+    return float(np.median(np.diff(arc_lengths(points))))
 
 
 def _nearest(a: Array, b: Array) -> Indices:

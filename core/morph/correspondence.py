@@ -216,7 +216,8 @@ def _proposed(
         ProposedMark(rings, (s, t), c)
         for s, t, c in zip(here.tolist(), there.tolist(), confidence.tolist(), strict=True)
     )
-    return _Matched(MatchedRing(a, b, here, there, tuple(range(len(here)))), proposed)
+    numbers = tuple(range(len(here)))
+    return _Matched(MatchedRing(a, b, here, there, numbers, proposed=True), proposed)
 
 
 def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> _Matched:

@@ -1,10 +1,12 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import MarkError
-from core.geometry.polyline import arc_lengths
+from core.geometry.polyline import arc_lengths, points_at
 from core.morph.boundary import MatchedRing, correspond
 from tests.core.shapes import ellipse, letter_l, star_shaped
 
@@ -44,7 +46,6 @@ def test_both_boundaries_keep_their_length_and_no_step_is_longer_than_the_spacin
 def test_between_marks_a_vertex_keeps_its_fraction_of_the_arc():
     square = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], dtype=float)
     source = np.insert(square, 1, [1, 0], axis=0)  # a quarter of the way along the first side
-    # corners of the target, not snapped: its arc from a to b is 8 long
     target = np.array([[0, 0], [8, 0], [8, 3], [0, 3]], dtype=float)
     lengths = arc_lengths(source)
     pair = correspond(
@@ -52,6 +53,29 @@ def test_between_marks_a_vertex_keeps_its_fraction_of_the_arc():
     )
     index = int(np.flatnonzero((pair.source == [1, 0]).all(axis=1))[0])
     assert np.allclose(pair.target[index], [2, 0])
+
+
+@pytest.mark.parametrize("count", [41, 47, 61])
+def test_vertices_that_nearly_meet_are_joined(count):
+    source, target = ellipse(60), ellipse(count)
+    pair = correspond(matched(source, target, [0.0], [0.0]), (1, 1), LABELS)
+    for points in (pair.source, pair.target):
+        step = np.diff(arc_lengths(points))
+        assert step.min() > 0.15 * np.diff(arc_lengths(source)).max()
+
+
+@pytest.mark.parametrize("proposed", [False, True])
+def test_only_proposed_marks_move_to_a_vertex_beside_them(proposed):
+    source, target = ellipse(30), letter_l()
+    lengths, others = arc_lengths(source), arc_lengths(target)
+    marks = lengths[[3, 20]], others[[0, 3]] + [0.05, 1.0]
+    ring = replace(matched(source, target, *marks), proposed=proposed)
+    pair = correspond(ring, (2, 2), LABELS)
+    first, second = (
+        pair.target[int(np.flatnonzero((pair.source == source[i]).all(axis=1))[0])] for i in (3, 20)
+    )
+    assert np.allclose(first, target[0] if proposed else points_at(target, others, [0.05])[0])
+    assert np.allclose(second, points_at(target, others, others[[3]] + 1)[0])  # no vertex is near
 
 
 def test_marks_correspond_exactly():
