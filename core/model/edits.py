@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from core.errors import EditError, Where
 from core.model.document import Document
 from core.model.easing import Easing
-from core.model.layer import Keyframe, Layer, mark_labels
+from core.model.layer import Keyframe, Layer
 from core.model.outline import MIN_NODES, Outline, Ring, RingPoint
 from core.model.structure import Problem, layer_problems, place_problems, setting_problems
 from core.model.turning import Turning
@@ -262,12 +262,11 @@ def add_mark(document: Document, layer_id: int, places: Sequence[RingPoint]) -> 
     def edit(layer: Layer) -> Layer:
         if len(places) != len(layer.keyframes):
             raise EditError("A mark needs a place on every keyframe.")
-        label = next(label for label in mark_labels() if label not in layer.labels)
         keys = tuple(
             replace(key, marks=(*key.marks, place))
             for key, place in zip(layer.keyframes, places, strict=True)
         )
-        return replace(layer, labels=(*layer.labels, label), keyframes=keys)
+        return replace(layer, labels=(*layer.labels, layer.next_label), keyframes=keys)
 
     return _on_layer(document, layer_id, edit)
 

@@ -47,6 +47,11 @@ class Layer:
         """How many spans there are."""
         return max(len(self.keyframes) - 1, 0)
 
+    @property
+    def next_label(self) -> str:
+        """The letter that the next mark gets."""
+        return next(label for label in mark_labels() if label not in self.labels)
+
     def span_at(self, frame: float) -> tuple[int, float]:
         """Return the span that covers a frame and t in it, both clamped to the layer's keys.
 

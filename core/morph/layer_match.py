@@ -1,9 +1,10 @@
-"""How all keyframes of a layer belong together: mates of a mark, and marks that are worth having."""
+"""How all keyframes of a layer belong together: mates of a mark, and marks worth having."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from core.model import Keyframe, RingPoint
 from core.morph.suggest import OutlineMatch, match_outlines
@@ -67,7 +68,7 @@ def match_layer(
     Raises whatever ``progress`` raises.
     """
     matches = []
-    for k, (source, target) in enumerate(zip(keyframes, keyframes[1:], strict=False)):
+    for k, (source, target) in enumerate(pairwise(keyframes)):
         progress(k / len(keyframes), "matching")
         marks = list(zip(source.marks, target.marks, strict=True))
         marks += [(here, there) for here, there, _ in proposed] if k == span else []

@@ -13,7 +13,7 @@ from tests.core.shapes import ellipse, letter_l, rotation
 
 TALLER = letter_l() * [1.0, 1.3]
 TURNED = TALLER @ rotation(0.4).T
-HOLE = ellipse(40, 0.2, 0.15) + [0.5, 0.5]
+HOLE = 0.5 + ellipse(40, 0.2, 0.15)
 
 
 def keyframes(*outlines):
