@@ -63,10 +63,11 @@ def correspond(
     order = np.roll(order, -int(np.argmin(order)))  # from the first mark, wherever the list starts
     _check_apart(ring, labels)
     _check_order(ring, order, labels)
-    outlines, marks = (ring.source, ring.target), (ring.source_marks, ring.target_marks)
+    outlines = ring.source, ring.target
+    marks: Sequence[Array] = (ring.source_marks, ring.target_marks)
     reach = SNAP * np.minimum(spacing, [_median_edge(points) for points in outlines])
     if ring.proposed:
-        marks = tuple(map(_drawn, marks, outlines, reach))
+        marks = list(map(_drawn, marks, outlines, reach))
     source, target = map(_Curve, outlines, (at[order[0]] for at in marks))
     anchors = np.column_stack([at[order] - at[order[0]] for at in marks])
     anchors = np.mod(anchors, [source.perimeter, target.perimeter])
