@@ -31,6 +31,19 @@ def rotate(theta: Array, M: Array) -> Array:
     return out
 
 
+def phasor(angle: Array) -> Complex:
+    """Return exp(i angle) (m,).
+
+    One tangent of half the angle takes a fraction of the time of a sine and a cosine.
+    """
+    half = np.tan(angle / 2)
+    scale = 2 / (1 + half * half)
+    out = np.empty(len(angle), dtype=complex)
+    np.subtract(scale, 1, out=out.real)
+    np.multiply(half, scale, out=out.imag)
+    return out
+
+
 def turn_and_mirror(F: Array) -> tuple[Complex, Complex]:
     """Split F = turn + mirror into the part that commutes with rotations and the part that flips.
 

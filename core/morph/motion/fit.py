@@ -7,34 +7,60 @@ from scipy.sparse import bsr_array, csr_array
 
 from core.fem.elements import Elements
 from core.fem.newton import factorise
+from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
 
 class GradientFit:
     """Minimises Σ tr((F(x) − B) M (F(x) − B)ᵀ) over positions x, for ideal gradients B.
 
-    Its matrix depends on the mesh and the weights M alone (Song 2013, eqs. 3 to 5; a cotangent
-    Laplacian when M is the triangle's area), so it is factored here. Vertex 0 is pinned at the
-    origin.
+    That is (x − x̂)ᵀ K (x − x̂) up to a constant, x̂ being the minimum. K depends on the mesh and the
+    weights M alone (Song 2013, eqs. 3 to 5; a cotangent Laplacian when M is the triangle's area),
+    so it is factored here. A spring ties vertex 0 to the origin; as no force moves the whole shape,
+    it is always at rest.
     """
 
     def __init__(self, elements: Elements, weights: Array) -> None:
         """Prepare for weights M (m, 2, 2), symmetric positive definite."""
         m = len(weights)
         blocks = bsr_array((weights, np.arange(m), np.arange(m + 1)), shape=(2 * m, 2 * m))
-        weighted = csr_array(elements.operator.T @ blocks.tocsr())[1:]
-        self._load = weighted
-        self._factor = factorise((weighted @ elements.operator[:, 1:]).tocsc())
+        matrix = csr_array(elements.operator.T @ blocks.tocsr() @ elements.operator)
+        matrix[0, 0] *= 2
+        self._factor = factorise(matrix.tocsc())
+        self._load = _load_operator(elements, weights)
 
-    def load(self, ideal: Array) -> Array:
-        """Return the right-hand sides (n − 1, 2) for ideal gradients (m, 2, 2)."""
-        return self._load @ ideal.transpose(0, 2, 1).reshape(-1, 2)
+    def load(self, ideal: Complex) -> Array:
+        """Return the right-hand sides (n, 2) for ideal gradients: turns and mirrors (2, m)."""
+        forces = self._load @ ideal.ravel()
+        return np.array([forces.real, forces.imag]).T  # column by column, as the solver wants it
 
     def solve(self, load: Array) -> Array:
-        """Return the positions (n − 1, 2) of all vertices but the pinned one."""
+        """Return the positions (n, 2) that balance a load (n, 2)."""
         return self._factor.solve(load)
 
-    def __call__(self, ideal: Array) -> Array:
-        """Return the positions (n, 2)."""
-        solved = self.solve(self.load(ideal))
-        return np.concatenate([np.zeros((1, 2)), solved])
+    def __call__(self, ideal: Complex) -> Array:
+        """Return the positions x̂ (n, 2) for ideal gradients: turns and mirrors (2, m)."""
+        return self.solve(self.load(ideal))
+
+    def stiffness(self, vertices: Indices) -> Array:
+        """Return K (k, k) of some vertices when all others follow: its Schur complement."""
+        unit = np.zeros((self._load.shape[0], len(vertices)))
+        unit[vertices, np.arange(len(vertices))] = 1
+        compliance = self.solve(unit)[vertices]
+        inverse: Array = np.linalg.inv((compliance + compliance.T) / 2)
+        return inverse
+
+
+def _load_operator(elements: Elements, weights: Array) -> csr_array:
+    """Return (n, 2m): what turns and mirrors load the vertices with, as complex numbers.
+
+    A corner whose hat function has the gradient g gets B M g.
+    """
+    m = len(weights)
+    pull = np.einsum("mij,mcj->mci", weights, elements.gradients)
+    corners = (pull[..., 0] + 1j * pull[..., 1]).ravel()
+    rows, columns = elements.triangles.ravel(), np.repeat(np.arange(m), 3)
+    entries = np.concatenate([corners, np.conj(corners)])
+    places = np.tile(rows, 2), np.concatenate([columns, columns + m])
+    return csr_array((entries, places), shape=(elements.vertices, 2 * m))

@@ -16,7 +16,9 @@ from core.fem.newton import (
     safe_length,
     step_of,
 )
+from core.geometry.rotation import Complex
 from core.model.outline import Array
+from core.morph.motion.gradients import determinant, matrices
 
 STIFFNESS = 0.1
 CONVERGED = 1e-13
@@ -42,23 +44,23 @@ class FoldGuard:
         rows, columns = PAIRS
         self._hessian = full.reshape(-1, 6, 6)[:, rows, columns].T
 
-    def margin(self, x: Array, ideal: Array) -> float:
+    def margin(self, x: Array, ideal: Complex) -> float:
         """Return the smallest det F / det B: a fold is 0 or less."""
         F = self._elements.deformation_gradients(x)
-        return float((determinants(F) / determinants(ideal)).min())
+        return float((determinants(F) / determinant(ideal)).min())
 
-    def __call__(self, ideal: Array, start: Array) -> Array:
-        """Return positions (n, 2) for ideal gradients B (m, 2, 2), from a start without folds."""
-        J = determinants(ideal)
+    def __call__(self, ideal: Complex, start: Array) -> Array:
+        """Return positions (n, 2) for ideal gradients B (2, m), from a start without folds."""
+        J, B = determinant(ideal), matrices(ideal)
         stiffness = STIFFNESS * self._areas / self._elements.areas * J
         density = FoldBarrier(J, stiffness)
 
         def total(y: Array) -> float:
-            return self._misfit(y, ideal)[0] + energy(self._elements, density, y)
+            return self._misfit(y, B)[0] + energy(self._elements, density, y)
 
         x = start
         for _ in range(MAX_STEPS):
-            misfit, gradient = self._misfit(x, ideal)
+            misfit, gradient = self._misfit(x, B)
             near = density_terms(self._elements, density, x)
             terms = Terms(
                 misfit + near.energy, gradient + near.gradient, self._hessian + near.hessian
