@@ -47,8 +47,6 @@ class MatchedRing:
     """(j,) arc lengths, in the same order."""
     marks: tuple[int, ...]
     """(j,) indices of the marks, to name them in errors."""
-    proposed: bool = False
-    """Whether nobody set the marks: then they may move to a vertex beside them."""
 
 
 def correspond(
@@ -63,11 +61,8 @@ def correspond(
     order = np.roll(order, -int(np.argmin(order)))  # from the first mark, wherever the list starts
     _check_apart(ring, labels)
     _check_order(ring, order, labels)
-    outlines = ring.source, ring.target
-    marks: Sequence[Array] = (ring.source_marks, ring.target_marks)
+    outlines, marks = (ring.source, ring.target), (ring.source_marks, ring.target_marks)
     reach = SNAP * np.minimum(spacing, [_median_edge(points) for points in outlines])
-    if ring.proposed:
-        marks = list(map(_drawn, marks, outlines, reach))
     source, target = map(_Curve, outlines, (at[order[0]] for at in marks))
     anchors = np.column_stack([at[order] - at[order[0]] for at in marks])
     anchors = np.mod(anchors, [source.perimeter, target.perimeter])
@@ -160,15 +155,6 @@ def _descents(values: Array) -> int:
 
 def _closed(anchors: Array, source: _Curve, target: _Curve) -> Array:
     return np.vstack([anchors, [[source.perimeter, target.perimeter]]])
-
-
-def _drawn(marks: Array, points: Array, reach: float) -> Array:
-    """Move marks (j,) on a ring to its vertices within reach, where just one goes to each."""
-    lengths = arc_lengths(points)
-    closest = lengths[_nearest(np.mod(marks, lengths[-1]), lengths)]
-    moved = np.where(np.abs(closest - marks) <= reach, np.mod(closest, lengths[-1]), marks)
-    _, index, count = np.unique(moved, return_inverse=True, return_counts=True)
-    return np.where(count[index] == 1, moved, marks)
 
 
 def _joined(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Array:

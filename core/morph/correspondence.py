@@ -217,7 +217,7 @@ def _proposed(
         for s, t, c in zip(here.tolist(), there.tolist(), confidence.tolist(), strict=True)
     )
     numbers = tuple(range(len(here)))
-    return _Matched(MatchedRing(a, b, here, there, numbers, proposed=True), proposed)
+    return _Matched(MatchedRing(a, b, here, there, numbers), proposed)
 
 
 def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> _Matched:

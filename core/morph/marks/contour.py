@@ -26,6 +26,8 @@ TURN_REACHES = (0.01, 0.03)
 """The chords before and after a point that its turns are measured between."""
 CORNER = np.radians(30)
 """A vertex where a ring turns by more than this, over the shortest such chords, is a corner."""
+HAIR = 0.0015
+"""Places this near to a vertex may as well lie on it: a sample is no more exact."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +64,14 @@ class Contour:
         """Return the points at places (k,), taken modulo one."""
         points = points_at(self.points, self.lengths, at * self.lengths[-1])
         return points[:, 0] + 1j * points[:, 1]
+
+    def drawn(self, at: Array) -> Array:
+        """Return places (k,) in [0, 1), those a hair from a vertex moved onto it."""
+        vertices = self.lengths / self.lengths[-1]
+        after = np.searchsorted(vertices, at)
+        nearest = np.where(at - vertices[after - 1] < vertices[after] - at, after - 1, after)
+        close = np.abs(vertices[nearest] - at) < HAIR
+        return np.mod(np.where(close, vertices[nearest], at), 1.0)
 
     def turns_at(self, at: Array, reach: float) -> Array:
         """Return the angles (k,) between the chords before and after places."""

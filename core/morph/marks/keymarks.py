@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.triangulation import Indices
+from core.model.outline import Array
 from core.morph.marks.chain import Chain, Pair
 from core.morph.marks.contour import Contour, gap
 from core.morph.marks.matching import Match
@@ -27,6 +28,8 @@ APART, ASIDE = 0.006, 0.009
 """Corners with partners are further apart than this, other places further from them."""
 MOST = 24
 """Marks that are suggested at most."""
+SAME = 1e-9
+"""Places this near to each other are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,23 +41,35 @@ class Route:
     """(k,) whether each of its knots was given, and …"""
     corner: NDArray[np.bool_]
     """(k,) … whether it is a pair of corners. The last knot, which is the first, is neither."""
+    key: NDArray[np.bool_]
+    """(k,) Whether it is to be a mark in any case."""
 
     @classmethod
     def of(
-        cls, source: Contour, target: Contour, match: Match, fixed: Sequence[Pair] = ()
+        cls,
+        source: Contour,
+        target: Contour,
+        match: Match,
+        fixed: Sequence[Pair] = (),
+        keys: Sequence[float] | Array = (),
     ) -> Route:
-        """Correct a match; ``fixed`` pairs are in the same cyclic order on both contours."""
-        corners, knots = _corner_pairs(source, target, match), _knots(match)
+        """Correct a match; ``fixed`` pairs are in the same cyclic order on both contours.
+
+        ``keys`` are places on the source of knots that are to be marks.
+        """
+        corners, knots = _corner_pairs(source, target, match), _knots(source, target, match)
         begin = (*fixed, *corners, *knots)[0]
         chain = Chain(begin)
         chain.add(fixed)
         chain.add(corners, APART)
         chain.add(knots, ASIDE)
         at, image = np.add(begin, chain.steps).T
-        kinds = (
+        given, corner = (
             np.array([*(pair in kind for pair in chain.pairs), False]) for kind in (fixed, corners)
         )
-        return cls(replace(match, source=at, target=image), *kinds)
+        key = (np.abs(gap(at[:, None], np.asarray(keys))) < SAME).any(axis=1)
+        key[-1] = False
+        return cls(replace(match, source=at, target=image), given, corner, key)
 
     def reversed(self) -> Route:
         """Return the same route, seen from the target."""
@@ -64,8 +79,9 @@ class Route:
         """Return which knots suffice as marks, besides the fixed ones, in order."""
         s, t = self.match.source, self.match.target
         known = np.flatnonzero(self.fixed).tolist()
-        sure = self.match.sureness(s[:-1]) + self.corner[:-1]
-        chosen = [] if known else [int(np.argmax(sure))]
+        chosen = np.flatnonzero(self.key & ~self.fixed).tolist()
+        if not known and not chosen:
+            chosen = [int(np.argmax(self.match.sureness(s[:-1]) + self.corner[:-1]))]
         tolerance = np.where(self.corner, CLOSER, CLOSE)
         while len(chosen) < MOST:
             kept = np.sort([*known, *chosen])
@@ -79,9 +95,9 @@ class Route:
         return np.sort(np.array(chosen, dtype=np.int64))
 
 
-def _knots(match: Match) -> list[Pair]:
-    pairs = np.mod(np.column_stack([match.source, match.target])[:-1], 1.0)
-    return [(float(s), float(t)) for s, t in pairs]
+def _knots(source: Contour, target: Contour, match: Match) -> list[Pair]:
+    at, image = source.drawn(match.source[:-1] % 1.0), target.drawn(match.target[:-1] % 1.0)
+    return list(zip(at.tolist(), image.tolist(), strict=True))
 
 
 def _corner_pairs(source: Contour, target: Contour, match: Match) -> list[Pair]:

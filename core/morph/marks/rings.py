@@ -70,9 +70,13 @@ class RingMatch:
         return bool((np.abs(off) <= CONFIRMED**2).all())
 
     def through(self, fixed: Sequence[Pair]) -> RingMatch:
-        """Return the match led through pairs of arc lengths that lie on it, or nearly so."""
+        """Return the match led through pairs of arc lengths that lie on it, or nearly so.
+
+        It takes the same marks as before.
+        """
         pairs = _pairs(self.source, self.target, self.perimeters, fixed)
-        route = Route.of(self.source, self.target, self.route.match, pairs)
+        match, keys = self.route.match, self.route.match.source[self.route.key_knots()]
+        route = Route.of(self.source, self.target, match, pairs, keys)
         return replace(self, route=route)
 
     def reversed(self) -> RingMatch:

@@ -1,12 +1,10 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import MarkError
-from core.geometry.polyline import arc_lengths, points_at
+from core.geometry.polyline import arc_lengths
 from core.morph.boundary import MatchedRing, correspond
 from tests.core.shapes import ellipse, letter_l, star_shaped
 
@@ -62,20 +60,6 @@ def test_vertices_that_nearly_meet_are_joined(count):
     for points in (pair.source, pair.target):
         step = np.diff(arc_lengths(points))
         assert step.min() > 0.15 * np.diff(arc_lengths(source)).max()
-
-
-@pytest.mark.parametrize("proposed", [False, True])
-def test_only_proposed_marks_move_to_a_vertex_beside_them(proposed):
-    source, target = ellipse(30), letter_l()
-    lengths, others = arc_lengths(source), arc_lengths(target)
-    marks = lengths[[3, 20]], others[[0, 3]] + [0.05, 1.0]
-    ring = replace(matched(source, target, *marks), proposed=proposed)
-    pair = correspond(ring, (2, 2), LABELS)
-    first, second = (
-        pair.target[int(np.flatnonzero((pair.source == source[i]).all(axis=1))[0])] for i in (3, 20)
-    )
-    assert np.allclose(first, target[0] if proposed else points_at(target, others, [0.05])[0])
-    assert np.allclose(second, points_at(target, others, others[[3]] + 1)[0])  # no vertex is near
 
 
 def test_marks_correspond_exactly():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.geometry.polyline import arc_lengths
-from core.morph.marks.contour import Contour, Samples, gap
+from core.morph.marks.contour import HAIR, Contour, Samples, gap
 from tests.core.shapes import ellipse, letter_l, rotation
 
 
@@ -64,3 +64,14 @@ def test_samples_of_a_mirror_image_turn_the_same_way_at_mirrored_places():
 
 def test_gaps_go_the_short_way_round():
     assert gap(np.array([0.95, 0.05]), np.array([0.05, 0.95])) == pytest.approx([-0.1, 0.1])
+
+
+@pytest.mark.parametrize("ring", [ellipse(40), letter_l()])
+def test_a_place_a_hair_from_a_vertex_is_drawn_onto_it_and_others_stay(ring):
+    contour = Contour.of(ring)
+    vertices = contour.lengths / contour.lengths[-1]
+    for hair in (-0.9 * HAIR, 0.9 * HAIR, 0.0):
+        drawn = contour.drawn(np.mod(vertices[:-1] + hair, 1.0))
+        assert np.array_equal(np.sort(drawn), vertices[:-1])
+    between = (vertices[1:] + vertices[:-1]) / 2
+    assert np.array_equal(contour.drawn(between), between)
