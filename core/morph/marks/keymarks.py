@@ -67,8 +67,8 @@ class Route:
         given, corner = (
             np.array([*(pair in kind for pair in chain.pairs), False]) for kind in (fixed, corners)
         )
-        key = (np.abs(gap(at[:, None], np.asarray(keys))) < SAME).any(axis=1)
-        key[-1] = False
+        near = np.abs(gap(at[:-1, None], np.asarray(keys))) < SAME
+        key = np.append(near.any(axis=1), False)
         return cls(replace(match, source=at, target=image), given, corner, key)
 
     def reversed(self) -> Route:
