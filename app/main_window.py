@@ -22,6 +22,7 @@ from app.files.files import Files
 from app.files.recent_menu import RecentMenu
 from app.help import show_about, show_shortcuts
 from app.icons import retint
+from app.jobs.inspector import Inspector
 from app.jobs.solver import Solver
 from app.keys import KeyManners
 from app.menus import PANELS, RECENT, TOOLS, TOP_BAR, Actions
@@ -213,6 +214,7 @@ class MainWindow(QMainWindow):
         self.actions_.close()
         self._manners.close()
         self.autosave.close()
+        self.workspace.inspector.close()
         self.workspace.solver.close()
         self.workspace.session.close()
         event.accept()
@@ -236,7 +238,8 @@ def _new_workspace(window: QMainWindow) -> Workspace:
     session = Session(parent=window)
     selection, playhead = Selection(session, window), Playhead(session, window)
     solver = Solver(session, selection, playhead, parent=window)
-    return Workspace(session, selection, playhead, solver, ViewOptions(window))
+    inspector = Inspector(session, selection, playhead, solver, parent=window)
+    return Workspace(session, selection, playhead, solver, inspector, ViewOptions(window))
 
 
 def _files(urls: list[QUrl]) -> list[Path]:

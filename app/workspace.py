@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from app.document.playhead import Playhead
     from app.document.selection import Selection
     from app.document.session import Session
+    from app.jobs.inspector import Inspector
     from app.jobs.solver import Solver
 
 Layout = Literal["side by side", "overlay"]
@@ -45,4 +46,5 @@ class Workspace:
     selection: Selection
     playhead: Playhead
     solver: Solver
+    inspector: Inspector
     view: ViewOptions

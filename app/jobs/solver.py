@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import sys
-from collections import OrderedDict
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Collection
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
@@ -14,6 +13,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
+from app.jobs.remembered import Remembered
+from app.jobs.urgency import Key, most_urgent
 from app.jobs.worker import Worker
 from core.errors import Cancelled, MorphError
 from core.model import Document
@@ -23,16 +24,12 @@ from core.progress import Progress
 if TYPE_CHECKING:
     from core.morph.morph import Morph
 
-Key = tuple[int, int]
-"""Which span: layer id, and index of the span in the layer."""
 Solve = Callable[[Span, Progress], "Morph"]
 
 REMEMBERED = 64
 """Outcomes kept beyond those of the document as it is, so that undo shows at once."""
 QUIET_MS = 100
 """How long after the last edit a job that edit made obsolete may still go on."""
-SWITCH_SECONDS = 0.0005
-"""How often the interpreter lock changes hands while solving; the default makes frames stutter."""
 
 
 class SpanState(Enum):
@@ -48,7 +45,7 @@ class SpanState(Enum):
 class _Job(NamedTuple):
     number: int
     key: Key | None
-    """Where its result is shown; None once that place has left the document."""
+    """Where its result is shown; None once that place is gone or may be another one."""
     span: Span
 
 
@@ -82,13 +79,12 @@ class Solver(QObject):
         """What went wrong, by span; kept until that span is solved."""
         self._spans: dict[Key, Span] = {}
         self._keys: dict[Span, Key] = {}
-        self._outcomes: OrderedDict[Span, Morph | MorphError] = OrderedDict()
+        self._outcomes: Remembered[Span, Morph | MorphError] = Remembered(REMEMBERED)
         self._last_good: dict[Key, Morph] = {}
         self._states: dict[Key, SpanState] = {}
         self._job: _Job | None = None
         self._busy = False
         self._held = False
-        self._switch_interval = sys.getswitchinterval()
         self._quiet = QTimer(self, singleShot=True, interval=QUIET_MS)
         self._quiet.timeout.connect(self._cancel_obsolete)
         self._worker = Worker("solver", self)
@@ -138,7 +134,7 @@ class Solver(QObject):
         self._held = False
         for span in self._spans.values():
             if isinstance(self._outcomes.get(span), MorphError):
-                del self._outcomes[span]
+                self._outcomes.forget(span)
         self._advance()
 
     def close(self) -> None:
@@ -149,11 +145,11 @@ class Solver(QObject):
         self._session.replaced.disconnect(self._forget)
         self._quiet.stop()
         self._worker.close()
-        sys.setswitchinterval(self._switch_interval)
 
     # -- the flow ------------------------------------------------------------------------------
 
     def _on_changed(self, document: Document) -> None:
+        before = Counter(layer_id for layer_id, _ in self._spans)
         self._spans = {
             (layer.id, index): span_of(layer, index)
             for layer in document.layers
@@ -161,17 +157,26 @@ class Solver(QObject):
             for index in range(layer.spans)
         }
         self._keys = {span: key for key, span in self._spans.items()}
-        if self._job and self._job.key not in self._spans:  # a new layer may get the same id
-            self._job = self._job._replace(key=None)
+        after = Counter(layer_id for layer_id, _ in self._spans)
+        self._leave_places({layer for layer in before if before[layer] != after[layer]})
         self._held = False
         self._quiet.start()
         self._advance()
 
+    def _leave_places(self, layers: Collection[int]) -> None:
+        """Keep nothing by its place in layers whose keys were inserted or removed.
+
+        Every place may be another span's now; or another layer's, which was given the same id.
+        """
+        for kept in (self.errors, self._last_good):
+            for key in [key for key in kept if key[0] in layers]:
+                del kept[key]
+        if self._job and self._job.key and self._job.key[0] in layers:
+            self._job = self._job._replace(key=None)
+
     def _forget(self) -> None:
         """Start over with another document: nothing of the last one may show in its place."""
-        self._last_good.clear()
-        self.errors.clear()
-        self._job = self._job and self._job._replace(key=None)
+        self._leave_places({layer_id for layer_id, _ in self._spans})
         self._cancel_obsolete()
         self._refresh()
 
@@ -183,20 +188,12 @@ class Solver(QObject):
             self._job = _Job(self._worker.start(partial(self._solve, span)), key, span)
         if self._busy != (self._job is not None):
             self._busy = not self._busy
-            sys.setswitchinterval(SWITCH_SECONDS if self._busy else self._switch_interval)
             self.busy_changed.emit(self._busy)
 
     def _most_urgent(self) -> Key | None:
         """Return the unsolved span to solve first: of the current layer, under the playhead."""
-        current = self._selection.layer
-        frame = self._playhead.frame
-
-        def urgency(key: Key) -> tuple[bool, bool, int]:
-            layer = self._session.document.layer(key[0])
-            return layer is not current, layer.span_at(frame)[0] != key[1], key[1]
-
         unsolved = (key for key, span in self._spans.items() if span not in self._outcomes)
-        return min(unsolved, key=urgency, default=None)
+        return most_urgent(unsolved, self._session.document, self._selection, self._playhead)
 
     def _cancel_obsolete(self) -> None:
         """Cancel the job under way unless it is what should be solved first."""
@@ -209,15 +206,9 @@ class Solver(QObject):
             return
         job, self._job = self._job, None
         if not isinstance(outcome, Cancelled):
-            self._remember(job.span, outcome)
+            self._outcomes.put(job.span, outcome, self._keys)
             self._preview(job.key, outcome)
         self._advance()
-
-    def _remember(self, span: Span, outcome: Morph | MorphError) -> None:
-        self._outcomes[span] = outcome
-        obsolete = [old for old in self._outcomes if old not in self._keys]
-        for old in obsolete[: max(len(obsolete) - REMEMBERED, 0)]:
-            del self._outcomes[old]
 
     def _preview(self, key: Key | None, outcome: Morph | MorphError) -> None:
         """Show a result in the place it was solved for, though the span has changed since."""
@@ -230,7 +221,7 @@ class Solver(QObject):
         """Derive states, errors and last good solutions from the outcomes that are known."""
         states, fresh = {}, []
         for key, span in self._spans.items():
-            outcome = self._outcomes.get(span)
+            outcome = self._outcomes.use(span)
             if outcome is None:
                 states[key] = SpanState.NONE if self._held else SpanState.SOLVING
             elif isinstance(outcome, MorphError):
@@ -239,13 +230,9 @@ class Solver(QObject):
                     self.errors[key] = outcome
                     fresh.append(outcome)
             else:
-                self._outcomes.move_to_end(span)
                 states[key] = SpanState.SOLVED
                 self._last_good[key] = outcome
                 self.errors.pop(key, None)
-        for kept in (self.errors, self._last_good):
-            for key in kept.keys() - self._spans.keys():
-                del kept[key]
         if states != self._states:
             self._states = states
             self.updated.emit()

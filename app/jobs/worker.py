@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -20,6 +21,8 @@ REPORT_EVERY = 0.03
 """Seconds between two progress reports of the same stage."""
 SHARE_EVERY, SHARE = 12, 0.004
 """Milliseconds between the turns that the UI thread gives to the work, and seconds of each."""
+SWITCH_SECONDS = 0.0005
+"""How often the interpreter lock changes hands meanwhile; the default makes frames stutter."""
 STACK = 16 * 2**20
 """Bytes: the mesher recurses deeper than the default stack of a thread allows on some systems."""
 
@@ -67,6 +70,7 @@ class Worker(QObject):
         self._number += 1
         self._job = _Job(self._number, work)
         self._turns.start()
+        _haste.begin()
         self._posted.emit(self._job)
         return self._number
 
@@ -80,23 +84,49 @@ class Worker(QObject):
         if self._runner is None:
             return
         self.cancel()
-        self._turns.stop()
         self._runner.done.disconnect(self._on_done)
         self._runner.progressed.disconnect(self._on_progressed)
         self._thread.quit()
         self._thread.wait()
-        self._job = self._runner = None
+        if self._job:
+            self._end()
+        self._runner = None
 
     @Slot(int, object)
     def _on_done(self, number: int, outcome: object) -> None:
+        self._end()
+        self.done.emit(number, outcome)
+
+    def _end(self) -> None:
         self._job = None
         self._turns.stop()
-        self.done.emit(number, outcome)
+        _haste.end()
 
     @Slot(float, str)
     def _on_progressed(self, fraction: float, stage: str) -> None:
         if self._job and not self._job.stop.is_set():
             self.progressed.emit(fraction, stage)
+
+
+class _Haste:
+    """Makes the interpreter lock change hands more often while any worker is at work."""
+
+    def __init__(self) -> None:
+        self._working, self._usual = 0, 0.0
+
+    def begin(self) -> None:
+        if self._working == 0:
+            self._usual = sys.getswitchinterval()
+            sys.setswitchinterval(SWITCH_SECONDS)
+        self._working += 1
+
+    def end(self) -> None:
+        self._working -= 1
+        if self._working == 0:
+            sys.setswitchinterval(self._usual)
+
+
+_haste = _Haste()
 
 
 def _give_way() -> None:

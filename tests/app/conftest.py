@@ -5,16 +5,20 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QObject, QStandardPaths, QThread
 
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
+from app.jobs.inspector import Check, Inspector, check_outwards
 from app.jobs.solver import Solve, Solver
 from app.workspace import ViewOptions, Workspace
 from core.model import Document
-from core.morph.scene import solve_span
+from core.morph.scene import TimedSpan, solve_span
+from core.morph.soundness import FrameCheck, SpanCheck
+from core.progress import Progress
 
 QStandardPaths.setTestModeEnabled(True)
 
@@ -34,19 +38,30 @@ def _runs(thread: QThread) -> bool:
         return False
 
 
+def find_nothing(span: TimedSpan, morph: object, frame: float, progress: Progress) -> SpanCheck:
+    """Find every frame sound, whatever a test has for a morph."""
+    nothing = tuple(FrameCheck(k, 0, 0, np.empty((0, 2))) for k, _ in span.frames())
+    return SpanCheck(nothing, 0.0, 0.0, 0.0)
+
+
 @pytest.fixture
 def open_workspace(qapp: QObject) -> Iterator[Callable[..., Workspace]]:
-    """Open a workspace on a document, with a solve function of the test's choice."""
+    """Open a workspace on a document, with functions to solve and to check of the test's choice."""
     opened: list[Workspace] = []
 
-    def open_it(document: Document | None = None, solve: Solve = solve_span) -> Workspace:
+    def open_it(
+        document: Document | None = None, solve: Solve = solve_span, check: Check | None = None
+    ) -> Workspace:
         session = Session(document)
         selection, playhead = Selection(session), Playhead(session)
         solver = Solver(session, selection, playhead, solve)
-        opened.append(Workspace(session, selection, playhead, solver, ViewOptions()))
+        check = check or (check_outwards if solve is solve_span else find_nothing)
+        inspector = Inspector(session, selection, playhead, solver, check)
+        opened.append(Workspace(session, selection, playhead, solver, inspector, ViewOptions()))
         return opened[-1]
 
     yield open_it
     for workspace in opened:
+        workspace.inspector.close()
         workspace.solver.close()
         workspace.session.close()

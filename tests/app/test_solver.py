@@ -16,7 +16,7 @@ from app.jobs.solver import REMEMBERED, SpanState
 from app.workspace import Workspace
 from core.errors import SolveError
 from core.model import Document, Keyframe, Layer, Outline
-from core.model.edits import move_nodes, update_layer
+from core.model.edits import insert_keyframe, move_nodes, remove_keyframe, update_layer
 from core.morph.scene import Span, span_of
 from core.progress import Progress
 
@@ -81,6 +81,13 @@ def workspace(open_workspace: Callable[..., Workspace], bench: Bench) -> Workspa
     return open_workspace(document((1, 2)), bench)
 
 
+@pytest.fixture
+def held(open_workspace: Callable[..., Workspace], bench: Bench) -> Workspace:
+    """A workspace whose first job waits for the gate."""
+    bench.gate.clear()
+    return open_workspace(document((1, 2)), bench)
+
+
 def solved(workspace: Workspace, layer: int = 1, index: int = 0) -> Callable[[], bool]:
     return lambda: workspace.solver.state(layer, index) is SpanState.SOLVED
 
@@ -113,15 +120,14 @@ def test_the_last_good_solution_stays_until_the_new_one_is_there(
 
 
 def test_the_newest_edit_wins_and_those_in_between_are_never_solved(
-    workspace: Workspace, bench: Bench, qtbot: QtBot
+    held: Workspace, bench: Bench, qtbot: QtBot
 ) -> None:
-    bench.gate.clear()
     qtbot.waitUntil(lambda: len(bench.started) == 1)
     for _ in range(20):
-        nudge(workspace)
+        nudge(held)
     bench.gate.set()
-    qtbot.waitUntil(solved(workspace))
-    assert bench.started[-1] == span(workspace)
+    qtbot.waitUntil(solved(held))
+    assert bench.started[-1] == span(held)
     assert len(bench.started) <= 2
 
 
@@ -139,13 +145,12 @@ def test_something_moves_while_dragging_though_every_job_comes_too_late(
 
 
 def test_an_obsolete_job_is_cancelled_when_the_artist_pauses(
-    workspace: Workspace, bench: Bench, qtbot: QtBot
+    held: Workspace, bench: Bench, qtbot: QtBot
 ) -> None:
-    bench.gate.clear()
     qtbot.waitUntil(lambda: len(bench.started) == 1)
-    nudge(workspace)
-    bench.passed.add(span(workspace))
-    qtbot.waitUntil(solved(workspace))
+    nudge(held)
+    bench.passed.add(span(held))
+    qtbot.waitUntil(solved(held))
     assert len(bench.started) == 2
 
 
@@ -239,17 +244,16 @@ def test_a_fault_in_the_solver_is_told_as_an_error_and_the_next_edit_is_solved(
 
 
 def test_cancel_stops_until_the_next_edit_or_until_asked(
-    workspace: Workspace, bench: Bench, qtbot: QtBot
+    held: Workspace, bench: Bench, qtbot: QtBot
 ) -> None:
-    bench.gate.clear()
     qtbot.waitUntil(lambda: len(bench.started) == 1)
-    workspace.solver.cancel()
-    qtbot.waitUntil(lambda: not workspace.solver.busy)
-    assert workspace.solver.state(1, 0) is SpanState.NONE
-    workspace.solver.resume()
-    assert workspace.solver.state(1, 0) is SpanState.SOLVING
+    held.solver.cancel()
+    qtbot.waitUntil(lambda: not held.solver.busy)
+    assert held.solver.state(1, 0) is SpanState.NONE
+    held.solver.resume()
+    assert held.solver.state(1, 0) is SpanState.SOLVING
     bench.gate.set()
-    qtbot.waitUntil(solved(workspace))
+    qtbot.waitUntil(solved(held))
 
 
 def test_what_failed_can_be_tried_again(workspace: Workspace, bench: Bench, qtbot: QtBot) -> None:
@@ -298,6 +302,48 @@ def test_another_document_never_shows_solutions_of_the_last_one(
     bench.passed.add(late)
     qtbot.waitUntil(lambda: bench.started[-1] == span(workspace))
     assert workspace.solver.morph_of(span(workspace)) is None
+
+
+def test_places_change_hands_when_a_key_is_inserted_so_no_last_solution_stays_in_them(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    workspace = open_workspace(document((1, 3)), bench)
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    bench.gate.clear()
+    between = Keyframe(7, SQUARE.transformed(np.eye(2) * 1.5))
+    workspace.session.apply("Insert", insert_keyframe, 1, between)
+    for index in (0, 1):  # else span 1 would show what was solved for the one that is span 2 now
+        assert workspace.solver.morph_of(span(workspace, 1, index)) is None
+    assert workspace.solver.state(1, 2) is SpanState.SOLVED
+    qtbot.waitUntil(lambda: bench.started[-1] == span(workspace))
+    late = bench.started[-1]
+    workspace.session.apply("Delete", remove_keyframe, 1, 0)
+    bench.passed.add(late)
+    qtbot.waitUntil(lambda: bench.started[-1] == span(workspace))
+    assert workspace.solver.morph_of(span(workspace)) is None
+
+
+def test_errors_leave_with_the_keys_that_they_were_about(
+    open_workspace: Callable[..., Workspace], bench: Bench, qtbot: QtBot
+) -> None:
+    made = document((1, 3))
+    bench.broken.add(span_of(made.layer(1), 1))
+    workspace = open_workspace(made, bench)
+    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    workspace.session.apply("Delete", remove_keyframe, 1, 0)
+    assert list(workspace.solver.errors) == [(1, 0)]
+    workspace.session.apply("Delete", remove_keyframe, 1, 1)
+    assert not workspace.solver.errors
+
+
+def test_no_more_solutions_are_kept_than_spans_and_those_that_undo_may_show(
+    workspace: Workspace, bench: Bench, qtbot: QtBot
+) -> None:
+    for _ in range(REMEMBERED + 20):
+        nudge(workspace)
+        qtbot.waitUntil(solved(workspace))
+    assert len(workspace.solver.solutions()) == 1 + REMEMBERED
+    assert len(bench.started) >= REMEMBERED + 20
 
 
 def test_more_spans_than_are_remembered_are_all_solved_once(
