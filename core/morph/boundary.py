@@ -19,6 +19,10 @@ from core.model.outline import Array
 SNAP = 0.2
 """Source and target vertices closer than this fraction of the spacing become one: more would tell
 in the distortion, less in the angles."""
+STEEP = 5.0
+"""How much longer than its neighbour an edge may be."""
+MOST_SPLITS = 16
+"""Each quarters the longer edge: enough for neighbours as different as numbers can be."""
 COINCIDENT = 1e-7
 """Marks closer than this fraction of the perimeter lie on top of each other."""
 
@@ -68,6 +72,7 @@ def correspond(
     anchors = np.mod(anchors, [source.perimeter, target.perimeter])
     anchors = _joined(anchors, source, target, reach)
     pairs = _densified(_union(anchors, source, target), source, target, spacing)
+    pairs = _graded(pairs, source, target)
     return BoundaryPair(source.points_at(pairs[:, 0]), target.points_at(pairs[:, 1]))
 
 
@@ -228,3 +233,21 @@ def _densified(pairs: Array, source: _Curve, target: _Curve, spacing: tuple[floa
     start = np.repeat(np.arange(len(pairs)), parts)
     within = np.arange(len(start)) - np.repeat(np.cumsum(parts) - parts, parts)
     return ends[start] + (within / parts[start])[:, None] * step[start]
+
+
+def _graded(pairs: Array, source: _Curve, target: _Curve) -> Array:
+    """Split steps that are much longer than the one beside them, on either outline.
+
+    Between a short edge and a long one no triangle has wide angles at both.
+    """
+    for _ in range(MOST_SPLITS):
+        ends = _closed(pairs, source, target)
+        step = np.diff(ends, axis=0)
+        after_short = step > STEEP * np.roll(step, 1, axis=0)
+        before_short = step > STEEP * np.roll(step, -1, axis=0)
+        cut = np.flatnonzero((after_short | before_short).any(axis=1))
+        if not len(cut):
+            break
+        share = np.where(after_short, 0.25, np.where(before_short, 0.75, 0.5))
+        pairs = np.insert(pairs, cut + 1, (pairs + share * step)[cut], axis=0)
+    return pairs

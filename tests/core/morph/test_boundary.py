@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from core.errors import MarkError
 from core.geometry.polyline import arc_lengths
-from core.morph.boundary import MatchedRing, correspond
+from core.morph.boundary import STEEP, MatchedRing, correspond
 from tests.core.shapes import ellipse, letter_l, star_shaped
 
 LABELS = "abcdefgh"
@@ -60,6 +60,16 @@ def test_vertices_that_nearly_meet_are_joined(count):
     for points in (pair.source, pair.target):
         step = np.diff(arc_lengths(points))
         assert step.min() > 0.15 * np.diff(arc_lengths(source)).max()
+
+
+@given(star_shaped(), star_shaped(), st.floats(1e-7, 1), st.floats(0.05, 1))
+def test_no_step_is_much_longer_than_the_one_beside_it(source, target, at, spacing):
+    source = np.insert(source, 1, (1 - at) * source[0] + at * source[1], axis=0)
+    pair = correspond(matched(source, target, [0.0], [0.0]), (spacing, spacing), LABELS)
+    for points in (pair.source, pair.target):
+        step = np.diff(arc_lengths(points))
+        assert (step <= STEEP * 1.001 * np.roll(step, 1)).all()
+        assert (step <= STEEP * 1.001 * np.roll(step, -1)).all()
 
 
 def test_marks_correspond_exactly():
