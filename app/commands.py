@@ -94,8 +94,9 @@ class Commands(QObject):
     def insert_keyframe(self) -> None:
         """Make the in-between at the playhead a keyframe; EditError while it is not solved."""
         layer, frame = self._unlocked(), round(self._playhead.frame)
-        key = keyframe_at(layer, frame, self._solution)
-        if self._session.apply(self.tr("Insert keyframe"), insert_keyframe, layer.id, key):
+        key, turning = keyframe_at(layer, frame, self._solution)
+        text = self.tr("Insert keyframe")
+        if self._session.apply(text, insert_keyframe, layer.id, key, turning):
             self._select_key_at(layer.id, frame)
 
     def remove_keyframe(self) -> None:

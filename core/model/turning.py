@@ -42,15 +42,19 @@ class Turning:
         return self.swing(nearest) + tau * (-self.turns if back else self.turns)
 
     def split(self, angle: float, s: float) -> tuple[Turning, Turning]:
-        """Return the turning of both parts of a span that turns by ``angle``, parted at s."""
-        return self._through(s * angle), self._through((1 - s) * angle)
+        """Return the turning of both parts of a span that turns by ``angle``, parted at s.
 
-    def _through(self, angle: float) -> Turning:
-        """Return the turning, on the same path, whose angle this is."""
+        An arc with whole turns becomes two chords: each part would swing by its own share of them.
+        """
+        path: Path = "straight" if self.turns else self.path
+        return self._through(s * angle, path), self._through((1 - s) * angle, path)
+
+    def _through(self, angle: float, path: Path) -> Turning:
+        """Return the turning whose angle this is."""
         if -pi <= angle < pi and (self.direction == "automatic" or abs(angle) <= SLACK):
-            return Turning(path=self.path)
+            return Turning(path=path)
         turns = int((abs(angle) + SLACK) // tau)
-        return Turning("clockwise" if angle > 0 else "counter-clockwise", turns, self.path)
+        return Turning("clockwise" if angle > 0 else "counter-clockwise", turns, path)
 
 
 AS_DRAWN = Turning()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from threading import Lock
-from typing import Any
+from typing import Any, Self
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.interpolate import Interpolate
+from core.model.turning import Turning
+from core.morph.motion.motion import Motion
 from core.morph.report import Report
 
 
@@ -25,7 +26,7 @@ class Morph:
     rings: tuple[Indices, ...]
     """The boundary as vertex indices, exterior first."""
     report: Report
-    inbetween: Interpolate
+    inbetween: Motion
     """Frames in the solver's coordinates."""
     origin: Array
     """(2,) where those coordinates have their zero."""
@@ -33,11 +34,22 @@ class Morph:
     """Their length unit."""
     _last: list[Any] = field(default_factory=lambda: [None, None], init=False, repr=False)
     """The last s and its positions: several views ask for the same frame."""
-    _lock: Lock = field(default_factory=Lock, init=False, repr=False)
+    _lock: Lock = field(default_factory=Lock, repr=False)
+    """Shared by all that share what was solved: the guard against folds factors in place."""
 
     def __post_init__(self) -> None:
         self.rest.setflags(write=False)
         self.target.setflags(write=False)
+
+    @property
+    def angle(self) -> float:
+        """How far the shape turns as a whole, in radians; clockwise is positive."""
+        course = self.inbetween.course
+        return 0.0 if course is None else course.angle
+
+    def along(self, turning: Turning) -> Self:
+        """Return the morph that turns and travels as told; all that was solved is shared."""
+        return replace(self, inbetween=self.inbetween.along(turning))
 
     def at(self, s: float) -> Array:
         """Return positions (n, 2) at progress s: the source at 0, the target at 1, both exactly.
@@ -48,7 +60,7 @@ class Morph:
             return self.rest
         if s == 1:
             return self.target
-        with self._lock:  # the guard against folds factors in place
+        with self._lock:
             if self._last[0] != s:
                 positions = self.origin + self.unit * self.inbetween(s)
                 positions.setflags(write=False)

@@ -26,8 +26,7 @@ from core.morph.correspondence import (
 )
 from core.morph.mapping import Map, direct_map, mended_map
 from core.morph.morph import Morph
-from core.morph.motion.interpolate import Interpolate
-from core.morph.motion.methods import METHODS
+from core.morph.motion.motion import Motion
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report, Stage
 from core.morph.suggest import mirror_matches_better
@@ -155,11 +154,11 @@ def _inside(
 
 def _inbetween(
     recipe: Recipe, rest: Array, target: Array, triangles: Indices, watch: Watch
-) -> Interpolate:
+) -> Motion:
     """Prepare the recipe's method; on a folded map Sᵗ does not exist, and the plain form serves."""
     folded = len(folds(target, triangles)) > 0
     method = "plain arap" if recipe.method == "arap" and folded else recipe.method
-    return METHODS[method](rest, target, triangles, watch)
+    return Motion.of(method, (rest, target), triangles, watch=watch)
 
 
 def _cleaned(outline: Outline, side: str) -> CleanOutline:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from core.geometry.flatten import flatten
 from core.geometry.places import nearest_place
-from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint
+from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Turning
 from core.model.outline import Array
 from core.model.picture import Picture, Shape
+from core.model.turning import AS_DRAWN
 from core.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -27,6 +28,12 @@ class Span:
     labels: tuple[str, ...]
     """The letters of the marks, for messages."""
     recipe: Recipe
+    turning: Turning = AS_DRAWN
+
+    @property
+    def mapped(self) -> Span:
+        """What the map depends on, however the shape moves."""
+        return replace(self, turning=AS_DRAWN)
 
 
 @dataclass(frozen=True)
@@ -52,7 +59,7 @@ def span_of(layer: Layer, index: int) -> Span:
     """Return what span ``index`` of a layer depends on."""
     source, target = layer.keyframes[index : index + 2]
     pairs = tuple(zip(source.marks, target.marks, strict=True))
-    return Span(source.outline, target.outline, pairs, layer.labels, layer.recipe)
+    return Span(source.outline, target.outline, pairs, layer.labels, layer.recipe, source.turning)
 
 
 def timed_span_of(layer: Layer, index: int) -> TimedSpan:
@@ -68,17 +75,13 @@ def spans_of(document: Document) -> list[Span]:
 
 
 def solve_span(span: Span, progress: Progress = silent) -> Morph:
-    """Solve one span; the errors and progress are those of ``solve_outlines``."""
-    from core.morph.pipeline import solve_outlines  # scipy loads with the first solve, not before
+    """Solve one span; the errors and progress are those of ``solve_outlines``.
 
-    return solve_outlines(
-        span.source,
-        span.target,
-        span.marks,
-        labels=span.labels,
-        recipe=span.recipe,
-        progress=progress,
-    )
+    Maps are remembered for a while: to turn a shape another way takes no time.
+    """
+    from core.morph.solved import solve_map  # scipy loads with the first solve, not before
+
+    return solve_map(span.mapped, progress).along(span.turning)
 
 
 def layer_rings(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[Array, ...]:
@@ -104,22 +107,25 @@ def picture_at(document: Document, frame: float, morph_of: MorphOf) -> Picture:
     return Picture(frame, document.size, document.background, shapes)
 
 
-def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> Keyframe:
+def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> tuple[Keyframe, Turning]:
     """Return what the layer shows at a frame as a keyframe of its own, to be inserted there.
 
     The in-between becomes an outline of straight segments, with every mark at its place on it.
-    Outside the layer's keys, and in a span without a solution, the nearest key is repeated.
+    Outside the layer's keys, and in a span without a solution, the nearest key is repeated. Beside
+    it comes how the shape turns on the way there from now on.
     """
     index, s, morph = _shown(layer, frame, morph_of)
+    turning = layer.keyframes[index].turning
     if morph is None:
-        return replace(_nearest_key(layer, index, s), frame=frame)
+        return replace(_nearest_key(layer, index, s), frame=frame), turning
     source, positions = layer.keyframes[index], morph.at(s)
     rest = Outline.polygon(*(morph.rest[ring] for ring in morph.rings))
     marks = tuple(
         nearest_place(rest, source.outline.position(mark))[0] for mark in source.marks
     )  # same vertices, so a place at rest is the place in the in-between
     outline = Outline.polygon(*(positions[ring] for ring in morph.rings))
-    return Keyframe(frame, outline, marks)
+    before, after = turning.split(morph.angle, s)
+    return Keyframe(frame, outline, marks, turning=after), before
 
 
 def _shown(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[int, float, Morph | None]:

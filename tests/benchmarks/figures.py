@@ -17,7 +17,7 @@ import core
 from core.fem.elements import Elements
 from core.geometry.polyline import signed_area
 from core.geometry.rotation import polar
-from core.morph.motion.rigid import Rigid
+from core.morph.motion.motion import Motion
 from core.morph.quality import folds
 from tests.benchmarks.sheet import Panel, application, draw_row, save, stack
 from tests.core.shapes import limb, rotation
@@ -81,9 +81,9 @@ def figure_3_angles() -> list[list[Panel]]:
     """A limb that curls through more than a full turn: principal angles against unwrapped ones."""
     source, target = (limb(bend, 40, 12, 0.5, curl=2) for bend in (0.0, 8.5))
     morph = core.solve(source, target, [(0, 0), (39, 39), (40, 40), (79, 79)])
-    principal = Rigid(morph.rest, morph.target, morph.triangles)
+    principal = Motion.of("arap", (morph.rest, morph.target), morph.triangles)
     elements = Elements.of(morph.rest, morph.triangles)
-    principal.ideal.theta = polar(elements.deformation_gradients(morph.target))[0]
+    principal.shape.ideal.theta = polar(elements.deformation_gradients(morph.target))[0]
     return [
         [_panel(f"{name}, t = {t:.1f}", frame(t), morph) for t in (0.2, 0.4, 0.6, 0.8, 1.0)]
         for name, frame in (("principal angles", principal), ("unwrapped", morph.at))

@@ -16,8 +16,7 @@ from shapely import points as shapely_points
 
 import core
 from core.geometry.polyline import signed_area
-from core.morph.motion.linear import Linear
-from core.morph.motion.rigid import PlainRigid
+from core.morph.motion.motion import Motion
 from core.morph.quality import crosses_itself, folds, smallest_angle
 from tests.benchmarks.pairs import Pair
 
@@ -93,8 +92,10 @@ def measure(pair: Pair, frames: int) -> tuple[Row, core.Morph]:
     rest, target = ((end - morph.origin) / morph.unit for end in (morph.rest, morph.target))
     times = np.linspace(0, 1, frames)
     motion, frame_seconds = _timed_motion(morph.at, times)
-    straight = _motion(Linear(rest, target, morph.triangles), times)
-    plain = _motion(PlainRigid(rest, target, morph.triangles), times)
+    straight, plain = (
+        _motion(Motion.of(method, (rest, target), morph.triangles), times)
+        for method in ("linear", "plain arap")
+    )
     return (
         Row(
             pair=pair.name,

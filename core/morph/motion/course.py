@@ -1,31 +1,78 @@
-"""Where a frame lies: gradients say nothing of that."""
+"""How a shape turns and travels as a whole: its triangles' gradients say nothing of that."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+from math import log, sqrt
+from typing import Self
+
 import numpy as np
 
-from core.fem.elements import Elements
+from core.geometry.triangulation import Indices
 from core.model.outline import Array
+from core.model.turning import AS_DRAWN, Turning
 
 
+@dataclass(frozen=True, eq=False)
 class Course:
-    """The centre of mass runs straight from end to end.
+    """Carries the centre of mass from end to end, and adds whole turns about it.
 
-    A vertex's mass is its share of the area, averaged over both ends.
+    A vertex's mass is its share of the area, averaged over both ends. On an arc the centre moves
+    as under c → e^λ c + b, the similarity with the shape's turn and growth that takes one end's
+    centre to the other's: round its fixed point, in a circle or a logarithmic spiral. Parts that
+    hang together at a joint stay together on it.
     """
 
-    def __init__(self, before: Elements, after: Elements, rest: Array, target: Array) -> None:
-        self._mass = (_mass(before) + _mass(after)) / 2
-        self._centres = self._mass @ rest, self._mass @ target
+    mass: Array
+    """(n,)"""
+    centres: tuple[complex, complex]
+    """At both ends."""
+    turn: float
+    """The shape's mean rotation, in [-π, π)."""
+    growth: float
+    """How many times larger it is at the end: the root of the ratio of the areas."""
+    turning: Turning
 
-    def place(self, x: Array, t: float) -> Array:
-        """Return positions x (n, 2) moved to where they belong at t."""
-        start, end = self._centres
-        return x + ((1 - t) * start + t * end - self._mass @ x)
+    @classmethod
+    def of(
+        cls, ends: tuple[Array, Array], triangles: Indices, turn: float, turning: Turning = AS_DRAWN
+    ) -> Self:
+        """Prepare for positions (n, 2) at both ends, triangles (m, 3) and the mean rotation."""
+        (before, area), (after, later_area) = (_mass(end, triangles) for end in ends)
+        mass = (before + after) / 2
+        start, end = (complex(*(mass @ end)) for end in ends)
+        return cls(mass, (start, end), turn, sqrt(later_area / area), turning)
+
+    def along(self, turning: Turning) -> Self:
+        """Return the course between the same ends with another turning."""
+        return replace(self, turning=turning)
+
+    @property
+    def angle(self) -> float:
+        """How far the shape turns in all; clockwise is positive where y points down."""
+        return self.turning.angle(self.turn)
+
+    def __call__(self, x: Array, t: float) -> Array:
+        """Return a frame's positions x (n, 2), wherever they lie, turned and put in place."""
+        spin = t * (self.angle - self.turn)
+        centre = self._centre(t)
+        if spin:
+            c, s = np.cos(spin), np.sin(spin)
+            x = x @ np.array([[c, s], [-s, c]])
+        return x + ([centre.real, centre.imag] - self.mass @ x)
+
+    def _centre(self, t: float) -> complex:
+        start, end = self.centres
+        rate = complex(log(self.growth), self.turning.swing(self.turn))
+        if self.turning.path == "straight" or not rate:
+            return (1 - t) * start + t * end
+        return start + complex(np.expm1(t * rate) / np.expm1(rate)) * (end - start)
 
 
-def _mass(elements: Elements) -> Array:
-    """Return (n,) each vertex's share of the area, summing to 1."""
-    corners, areas = elements.triangles.ravel(), np.repeat(elements.areas, 3)
-    shares = np.bincount(corners, weights=areas, minlength=elements.vertices)
-    return shares / shares.sum()
+def _mass(points: Array, triangles: Indices) -> tuple[Array, float]:
+    """Return each vertex's share (n,) of the area, and the area."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    u, v = b - a, c - a
+    areas = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+    around = np.bincount(triangles.ravel(), weights=np.repeat(areas, 3), minlength=len(points))
+    return around / around.sum(), float(areas.sum())

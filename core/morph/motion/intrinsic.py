@@ -14,7 +14,6 @@ from core.fem.newton import factorise
 from core.geometry.rotation import Complex
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.course import Course
 from core.progress import Watch, unwatched
 
 STIFFEST = 1e-4
@@ -30,25 +29,23 @@ class Intrinsic:
     def __init__(
         self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
     ) -> None:
-        before, after = Elements.of(rest, triangles), Elements.of(target, triangles)
-        self._course = Course(before, after, rest, target)
         rings = boundary_rings(triangles)
         z, w = _complex(rest), _complex(target)
         exterior = max(rings, key=lambda ring: np.ptp(z[ring].real))
-        self._turn = _mean_turn(z[exterior], w[exterior])
-        w = w * np.exp(-1j * self._turn)
+        self.turn = _mean_turn(z[exterior], w[exterior])
+        w = w * np.exp(-1j * self.turn)
         self._paths = [(ring, _RingPath(z[ring], w[ring])) for ring in rings]
-        self._extension = _Extension(before, np.concatenate(rings))
+        self._extension = _Extension(Elements.of(rest, triangles), np.concatenate(rings))
         self._drift = w - self._extension(w)
 
     def __call__(self, t: float) -> Array:
-        """Return positions (n, 2) at t."""
+        """Return positions (n, 2) at t, wherever they lie."""
         x = np.zeros_like(self._drift)
         for ring, path in self._paths:
             x[ring] = path(t)
         # the target's inner vertices need not lie where its boundary alone would put them
-        x = (self._extension(x) + t * self._drift) * np.exp(1j * t * self._turn)
-        return self._course.place(np.column_stack([x.real, x.imag]), t)
+        x = (self._extension(x) + t * self._drift) * np.exp(1j * t * self.turn)
+        return np.column_stack([x.real, x.imag])
 
 
 class _RingPath:

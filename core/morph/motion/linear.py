@@ -10,6 +10,8 @@ from core.progress import Watch, unwatched
 class Linear:
     """Moves every vertex straight to its target."""
 
+    turn = None
+
     def __init__(
         self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
     ) -> None:

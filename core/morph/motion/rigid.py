@@ -10,7 +10,6 @@ import numpy as np
 from core.fem.elements import Elements
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.course import Course
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import IdealGradients, LinearStretch, LogStretch
 from core.morph.motion.guard import FoldGuard
@@ -24,15 +23,15 @@ class PlainRigid:
     def __init__(
         self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
     ) -> None:
-        before, after = Elements.of(rest, triangles), Elements.of(target, triangles)
+        before = Elements.of(rest, triangles)
         F = before.deformation_gradients(target)
         self.ideal = IdealGradients(F, triangles, before.areas, LinearStretch)
+        self.turn = self.ideal.turn
         self.fit = GradientFit(before, before.areas[:, None, None] * np.eye(2))
-        self._course = Course(before, after, rest, target)
 
     def __call__(self, t: float) -> Array:
-        """Return positions (n, 2) at t."""
-        return self._course.place(self.fit(self.ideal(t)), t)
+        """Return positions (n, 2) at t, vertex 0 at the origin."""
+        return self.fit(self.ideal(t))
 
 
 class Rigid:
@@ -51,14 +50,14 @@ class Rigid:
         F = before.deformation_gradients(target)
         weights = _symmetric_weights(before, after, F)
         self.ideal = IdealGradients(F, triangles, before.areas, LogStretch)
+        self.turn = self.ideal.turn
         self.fit = GradientFit(before, weights)
         guard = FoldGuard(before, after, weights)
         self._frames = SoundFrames(self.ideal, self.fit, guard, rest, watch)
-        self._course = Course(before, after, rest, target)
 
     def __call__(self, t: float) -> Array:
-        """Return positions (n, 2) at t."""
-        return self._course.place(self._frames(t), t)
+        """Return positions (n, 2) at t, wherever they lie."""
+        return self._frames(t)
 
 
 def _symmetric_weights(before: Elements, after: Elements, F: Array) -> Array:

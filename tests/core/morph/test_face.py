@@ -140,12 +140,12 @@ def test_a_comb_against_a_square_keeps_both_outlines():
 def test_without_marks_a_shape_is_not_turned_for_nothing():
     bar = np.array([[0, 0], [8, 0.1], [8, 1.1], [4, 1.25], [0, 1]])
     morph = core.solve(bar, bar * [1.1, 1.0] + [0.0, 3.0])
-    assert abs(np.average(morph.inbetween.ideal.theta)) < 0.2
+    assert abs(morph.angle) < 0.2
 
 
 def test_without_marks_a_shape_that_did_turn_is_turned():
     morph = core.solve(letter_l(), letter_l() @ rotation(2.8).T)
-    assert np.average(morph.inbetween.ideal.theta) == pytest.approx(2.8, abs=0.01)
+    assert morph.angle == pytest.approx(2.8, abs=0.01)
 
 
 def test_a_mirrored_shape_is_said_to_match_better_mirrored_and_others_are_not():

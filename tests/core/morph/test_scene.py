@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint
+from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingPoint, Turning
 from core.model.easing import HOLD, LINEAR
 from core.model.edits import insert_keyframe
 from core.morph.morph import Morph
@@ -36,14 +36,14 @@ def unsolved(span: Span) -> None:
 @pytest.mark.parametrize("frame", [-3, 1, 3, 6, 9, 11, 20])
 def test_the_key_made_at_a_frame_is_what_shows_there(easing: Easing, frame: int, morph: Morph):
     shown = layer_rings(layer(easing), frame, lambda span: morph)
-    key = keyframe_at(layer(easing), frame, lambda span: morph)
+    key, _ = keyframe_at(layer(easing), frame, lambda span: morph)
     assert key.frame == frame
     for ring, points in zip(key.outline.rings, shown, strict=True):
         assert np.array_equal(ring.points, points)
 
 
 def test_a_key_made_between_has_the_marks_where_they_travelled(morph: Morph):
-    key = keyframe_at(layer(), 6, lambda span: morph)
+    key, _ = keyframe_at(layer(), 6, lambda span: morph)
     places = np.array([SOURCE.position(mark) for mark in MARKS])
     vertices = [int(np.argmin(np.hypot(*(morph.rest - place).T))) for place in places]
     found = np.array([key.outline.position(mark) for mark in key.marks])
@@ -61,8 +61,22 @@ def test_a_span_without_a_solution_shows_the_nearest_key(frame: int, key: int):
 @pytest.mark.parametrize("easing", [HOLD, Easing(0.6, 0, 0.9, 0.4), Easing(0.2, 1.4, 0.6, 1)])
 def test_a_rigid_motion_is_the_same_with_a_key_made_of_an_in_between(easing: Easing, morph: Morph):
     before = layer(easing)
-    key = keyframe_at(before, 5, lambda span: morph)
-    after = insert_keyframe(Document((before,)), 1, key).layers[0]
+    assert_same_with_a_key_between(before, morph)
+
+
+@pytest.mark.parametrize("direction", ["clockwise", "counter-clockwise"])
+@pytest.mark.parametrize(("turns", "path"), [(0, "arc"), (1, "straight"), (2, "straight")])
+def test_whole_turns_are_the_same_with_a_key_made_of_an_in_between(
+    direction: str, turns: int, path: str, morph: Morph
+):
+    turning = Turning(direction, turns, path)
+    keys = Keyframe(1, SOURCE, MARKS, turning=turning), Keyframe(11, TARGET, MARKS)
+    assert_same_with_a_key_between(Layer(1, "L", keys, ("a", "b")), morph.along(turning))
+
+
+def assert_same_with_a_key_between(before: Layer, morph: Morph) -> None:
+    key, turning = keyframe_at(before, 5, lambda span: morph)
+    after = insert_keyframe(Document((before,)), 1, key, turning).layers[0]
     for frame in (2, 4, 5, 8, 10):
         [was] = layer_rings(before, frame, lambda span: morph)
         [now] = layer_rings(after, frame, solve_span)

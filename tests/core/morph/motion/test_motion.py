@@ -6,9 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import core
+from core.model import Turning
 from tests.core.shapes import ellipse, letter_l, limb, rotation, star_shaped
 
 TIMES = [0.1, 0.25, 0.5, 0.8, 0.95]
+STRAIGHT = Turning(path="straight")
 
 
 def size(points):
@@ -29,7 +31,7 @@ def test_a_similarity_is_reproduced_at_every_t(method, points, angle, scale, shi
     M = scale * rotation(angle)
     target = points @ M.T + shift
     marks = [(0, 0), (2, 2)]
-    morph = core.solve(points, target, marks, recipe=core.Recipe(method=method))
+    morph = core.solve(points, target, marks, recipe=core.Recipe(method=method)).along(STRAIGHT)
     centre = morph.at(0.0).T @ _mass(morph)
     goal = M @ centre + shift
     for t in TIMES:
