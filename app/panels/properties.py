@@ -50,6 +50,7 @@ class PropertiesPanel(QScrollArea):
         workspace.playhead.moved.connect(self.span.refresh)
         workspace.playhead.moved.connect(self.result.follow)
         workspace.solver.updated.connect(self.result.refresh)
+        workspace.solver.updated.connect(self.span.show_angle)
         self._refresh()
 
     def sizeHint(self) -> QSize:

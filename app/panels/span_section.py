@@ -1,20 +1,26 @@
-"""When the chosen key comes, and how the span under the playhead is timed."""
+"""When the chosen key comes, and how the span under the playhead is timed and turns."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from PySide6.QtCore import QCoreApplication
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from app.fields.choice import Choice
 from app.fields.number import NumberField
+from app.jobs.solver import SpanState
 from app.panels.easing_editor import EasingEditor
 from app.panels.section import Section
 from app.workspace import Workspace
-from core.model import Easing
+from core.model import Document, Easing
 from core.model.easing import PRESETS
-from core.model.edits import move_keyframe, set_easing
+from core.model.edits import move_keyframe, set_easing, set_turning
+from core.model.turning import MOST_TURNS, Direction, Path
+from core.morph.scene import span_of
 
 MOST_FRAMES = 1_000_000
 
@@ -53,7 +59,7 @@ class KeyframeSection(Section):
 
 
 class SpanSection(Section):
-    """The easing of the span under the playhead."""
+    """The easing of the span under the playhead, and how its shape turns and travels."""
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__("", workspace, parent)
@@ -66,11 +72,41 @@ class SpanSection(Section):
         self.curve.began.connect(self._begin)
         self.curve.edited.connect(self._shape)
         self.curve.ended.connect(self.end_drag)
+        self._make_turning_fields()
         self.add_row(self.tr("Easing"), self.preset)
         self.add_wide(self.curve)
+        self.add_row(self.tr("Turn"), self.direction)
+        self.add_row(self.tr("Extra turns"), self.turns)
+        self.add_row(self.tr("In all"), self.angle)
+        self.add_row(self.tr("Path"), self.path)
+
+    def _make_turning_fields(self) -> None:
+        self.direction = Choice(
+            self.tr("Direction of turning"),
+            [
+                (self.tr("Shorter way"), "automatic"),
+                (self.tr("Clockwise"), "clockwise"),
+                (self.tr("Counter-clockwise"), "counter-clockwise"),
+            ],
+        )
+        self.direction.setToolTip(self.tr("Which way the shape turns to the next key"))
+        self.direction.edited.connect(self._set_direction)
+        self.turns = NumberField(self.tr("Extra whole turns"), 0, MOST_TURNS)
+        self.turns.setToolTip(self.tr("Whole turns besides, about the shape's own centre"))
+        self.turns.edited.connect(self._set_turns)
+        self.path = Choice(
+            self.tr("Path of the centre"),
+            [(self.tr("Arc"), "arc"), (self.tr("Straight"), "straight")],
+        )
+        self.path.setToolTip(
+            self.tr("Arc: round the point that the shape turns and grows about, as a limb does")
+        )
+        self.path.edited.connect(self._set_path)
+        self.angle = QLabel()
+        self.angle.setToolTip(self.tr("How far the shape turns as a whole"))
 
     def refresh(self) -> None:
-        """Show the easing of the span under the playhead, and where in it the playhead is."""
+        """Show the span under the playhead, and where in it the playhead is."""
         layer = self.workspace.selection.layer
         self.setVisible(layer is not None and layer.spans > 0)
         if layer is None or not layer.spans:
@@ -81,23 +117,61 @@ class SpanSection(Section):
         self.preset.show_value(first.easing)
         self.curve.show_value(first.easing)
         self.curve.show_time(t)
+        self.direction.show_value(first.turning.direction)
+        self.turns.show_value(first.turning.turns)
+        self.path.show_value(first.turning.path)
         for field in (self.preset, self.curve):
             field.setEnabled(not layer.locked)
+        for field in (self.direction, self.turns, self.path):
+            field.setEnabled(not layer.locked and layer.recipe.method != "linear")
+        self.show_angle()
+
+    def show_angle(self) -> None:
+        """Show how far the shape turns, once that is known."""
+        layer = self.workspace.selection.layer
+        if layer is None or not layer.spans:
+            return
+        index, _ = layer.span_at(self.workspace.playhead.frame)
+        morph = self.workspace.solver.morph_of(span_of(layer, index))
+        solved = self.workspace.solver.state(layer.id, index) is SpanState.SOLVED
+        self.angle.setText(self._turned(morph.angle) if morph and solved else "–")
+
+    def _turned(self, angle: float) -> str:
+        rounded = round(math.degrees(angle))
+        way = self.tr("{}° clockwise") if rounded > 0 else self.tr("{}° counter-clockwise")
+        return way.format(abs(rounded)) if rounded else self.tr("no turn")
 
     def _begin(self) -> None:
         self.workspace.session.begin(self.tr("Change easing"))
 
     def _set_easing(self, easing: Easing) -> None:
-        self._apply(object(), easing)
+        self._apply(object(), self.tr("Change easing"), set_easing, easing)
 
     def _shape(self, easing: Easing) -> None:
         """Take a curve from the editor; steps of its keyboard in a row are one undo step."""
-        self._apply(self.curve, replace(easing, hold=False))
+        easing = replace(easing, hold=False)
+        self._apply(self.curve, self.tr("Change easing"), set_easing, easing)
 
-    def _apply(self, gesture: object, easing: Easing) -> None:
+    def _set_direction(self, direction: Direction) -> None:
+        self._turn(object(), self.tr("Change turn"), direction=direction)
+
+    def _set_turns(self, turns: float) -> None:
+        self._turn(self.turns.gesture, self.tr("Change extra turns"), turns=int(turns))
+
+    def _set_path(self, path: Path) -> None:
+        self._turn(object(), self.tr("Change path"), path=path)
+
+    def _turn(self, gesture: object, text: str, **changes: Any) -> None:
         layer = self.workspace.selection.layer
-        if layer is None or not layer.spans:
-            return
-        target = (layer.id, layer.span_at(self.workspace.playhead.frame)[0])
-        text = self.tr("Change easing")
-        self.workspace.session.amend((gesture, target), text, set_easing, *target, easing)
+        if layer is not None and layer.spans:
+            index, _ = layer.span_at(self.workspace.playhead.frame)
+            turning = replace(layer.keyframes[index].turning, **changes)
+            self._apply(gesture, text, set_turning, turning)
+
+    def _apply(
+        self, gesture: object, text: str, edit: Callable[..., Document], value: object
+    ) -> None:
+        layer = self.workspace.selection.layer
+        if layer is not None and layer.spans:
+            target = (layer.id, layer.span_at(self.workspace.playhead.frame)[0])
+            self.workspace.session.amend((gesture, target), text, edit, *target, value)

@@ -27,7 +27,7 @@ from app.fields.colour import Swatch
 from app.jobs.solver import SpanState
 from app.panels.properties import PropertiesPanel
 from app.workspace import Workspace
-from core.model import Document, Easing
+from core.model import Document, Easing, Turning
 from core.model.easing import EASE_IN, HOLD, PRESETS
 from core.model.edits import move_nodes, remove_layer, update_document, update_layer
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Method, Recipe
@@ -89,6 +89,9 @@ EDITS: dict[str, Callable[[PropertiesPanel], None]] = {
     "stroke width": lambda p: type_in(p.layer.stroke_width, "12.5"),
     "frame": lambda p: type_in(p.keyframe.frame, "20"),
     "easing": lambda p: choose(p.span.preset, "Hold"),
+    "turn": lambda p: choose(p.span.direction, "Counter-clockwise"),
+    "extra turns": lambda p: type_in(p.span.turns, "2"),
+    "path": lambda p: choose(p.span.path, "Straight"),
     "method": lambda p: choose(p.mapping.method, "Straight paths"),
     "density": lambda p: type_in(p.mapping.density, "256"),
     "material": lambda p: choose(p.mapping.material, "St. Venant–Kirchhoff"),
@@ -122,11 +125,42 @@ def test_the_fields_set_what_they_name(panel: PropertiesPanel, workspace: Worksp
     assert changed.style.stroke_width == 12.5
     assert changed.keyframes[1].frame == 20
     assert changed.keyframes[0].easing == HOLD  # the playhead, at 13, is now in the first span
+    assert changed.keyframes[0].turning == Turning("counter-clockwise", 2, "straight")
     recipe = changed.recipe
     assert (recipe.method, recipe.density) == ("linear", 256)
     assert (recipe.material, recipe.mu, recipe.lam) == ("st-venant-kirchhoff", 2.5, 0.25)
     assert (document.size, document.fps) == ((1920, 1080), 30)
     assert document.layer(2) == a_layer(2, 1, 9)
+
+
+def test_the_span_says_how_far_it_turns_as_soon_as_it_is_solved(
+    panel: PropertiesPanel, workspace: Workspace, qtbot: QtBot
+) -> None:
+    assert panel.span.angle.text() == "–"  # the span at 13 cannot be solved
+    workspace.playhead.move_to(5)
+    qtbot.waitUntil(lambda: panel.span.angle.text() == "29° clockwise")
+    choose(panel.span.direction, "Counter-clockwise")
+    assert panel.span.angle.text() == "–"
+    qtbot.waitUntil(lambda: panel.span.angle.text() == "331° counter-clockwise")
+    type_in(panel.span.turns, "1")
+    qtbot.waitUntil(lambda: panel.span.angle.text() == "691° counter-clockwise")
+    choose(panel.mapping.method, "Straight paths")
+    assert not any(field.isEnabled() for field in (panel.span.direction, panel.span.turns))
+
+
+def test_turning_belongs_to_the_span_under_the_playhead(
+    panel: PropertiesPanel, workspace: Workspace
+) -> None:
+    choose(panel.span.direction, "Clockwise")
+    workspace.playhead.move_to(5)
+    assert panel.span.direction.currentText() == "Shorter way"
+    workspace.playhead.move_to(14)
+    assert panel.span.direction.currentText() == "Clockwise"
+    assert [key.turning.direction for key in layer(workspace).keyframes] == [
+        "automatic",
+        "clockwise",
+        "automatic",
+    ]
 
 
 @pytest.mark.parametrize("density", [LEAST_DENSITY, 5000, MOST_DENSITY])
