@@ -325,6 +325,7 @@ class Canvas(QWidget):
             w.selection.changed,
             w.playhead.playing_changed,
             w.solver.updated,
+            w.inspector.changed,
         ):
             signal.connect(self._refresh_soon)
         w.playhead.moved.connect(self._on_playhead_moved)

@@ -41,6 +41,8 @@ class Moment:
     state: SpanState = SpanState.NONE
     stale: frozenset[int] = frozenset()
     """Layers whose in-between on screen is not what the document says by now."""
+    trouble: Array | None = None
+    """(k, 2) where the in-between folds or crosses itself, as far as it was looked at."""
 
     @cached_property
     def positions(self) -> Array | None:
@@ -68,7 +70,9 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     span, t = layer.span_at(frame)
     morph = workspace.solver.morph_of(span_of(layer, span))
     s = layer.progress_at(frame)[1]
-    return Moment(document, frame, layer, span, t, s, morph, state_of(layer), stale)
+    check = workspace.inspector.frame_check(layer.id, frame) if frame.is_integer() else None
+    trouble = None if check is None else check.places
+    return Moment(document, frame, layer, span, t, s, morph, state_of(layer), stale, trouble)
 
 
 def edited_key(workspace: Workspace, role: Role) -> int | None:

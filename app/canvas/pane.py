@@ -18,6 +18,7 @@ from app.canvas.moment import Moment, Role, edited_key
 from app.canvas.onion import AFTER, BEFORE, OnionSkin
 from app.canvas.overlay import ToolOverlay
 from app.canvas.pins import NO_PINS, pins_between, pins_on_key
+from app.canvas.trouble_rings import TroubleRings
 from app.canvas.view import View
 from app.jobs.solver import SpanState
 from app.style import colours
@@ -54,7 +55,14 @@ class Pane(QWidget):
         self._mesh = MeshOverlay(self.view, 5)
         self._marks, self.tool_overlay = MarksOverlay(self.view), ToolOverlay(self.view)
         self.error_ring, self._invitation = ErrorRing(self.view), Invitation(self.view)
-        overlays = (self._invitation, self.tool_overlay, self._marks, self.error_ring)
+        self.trouble_rings = TroubleRings(self.view)
+        overlays = (
+            self._invitation,
+            self.trouble_rings,
+            self.tool_overlay,
+            self._marks,
+            self.error_ring,
+        )
         for z, item in enumerate(overlays):
             self.view.add_overlay(item, 10 + z)
 
@@ -122,6 +130,7 @@ class Pane(QWidget):
         self._show_mesh(moment)
         self._show_marks(moment)
         self._show_error(moment, error)
+        self._show_trouble(moment)
         self._invitation.show_text(*self._invite(moment), moment.document.background)
         self.view.update_all()
 
@@ -183,6 +192,11 @@ class Pane(QWidget):
             self.error_ring.show_error(NO_PINS.places, "")
         else:
             self.error_ring.show_error(places_of(error.where, keyframe), error.what)
+
+    def _show_trouble(self, moment: Moment) -> None:
+        playing = self._workspace.playhead.playing
+        known = self.live and not playing and moment.trouble is not None
+        self.trouble_rings.show_places(moment.trouble if known else NO_PINS.places)
 
     def _side(self, moment: Moment) -> str:
         """Return which side of the span the key shown here is on."""

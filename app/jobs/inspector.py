@@ -23,7 +23,7 @@ from core.progress import Progress
 
 if TYPE_CHECKING:
     from core.morph.morph import Morph
-    from core.morph.soundness import SpanCheck
+    from core.morph.soundness import FrameCheck, SpanCheck
 
 Check = Callable[[TimedSpan, "Morph", float, Progress], "SpanCheck"]
 """Looks at the frames of a span, those near a frame first."""
@@ -91,6 +91,11 @@ class Inspector(QObject):
             signal.connect(self._advance)
         self._advance()
 
+    @property
+    def busy(self) -> bool:
+        """Whether frames are being looked at."""
+        return self._job is not None
+
     def standing(self, layer_id: int, index: int) -> Standing:
         """Return what is known of a span."""
         return self._standings.get((layer_id, index), Standing.NONE)
@@ -100,6 +105,16 @@ class Inspector(QObject):
         if self.standing(layer_id, index) not in (Standing.SOUND, Standing.UNSOUND):
             return None
         return self._outcomes.get(self._spans[layer_id, index])
+
+    def frame_check(self, layer_id: int, frame: float) -> FrameCheck | None:
+        """Return what was seen in a frame of a layer; between frames, in the worse neighbour."""
+        index, _ = self._session.document.layer(layer_id).span_at(frame)
+        check = self.check(layer_id, index)
+        if check is None:
+            return None
+        frame = min(max(frame, check.frames[0].frame), check.frames[-1].frame)
+        beside = (seen for seen in check.frames if abs(seen.frame - frame) < 1)
+        return max(beside, key=lambda seen: seen.folds + seen.crossings)
 
     def error(self, layer_id: int, index: int) -> MorphError | None:
         """Return why a span could not be solved or checked."""

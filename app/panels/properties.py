@@ -51,6 +51,7 @@ class PropertiesPanel(QScrollArea):
         workspace.playhead.moved.connect(self.result.follow)
         workspace.solver.updated.connect(self.result.refresh)
         workspace.solver.updated.connect(self.span.show_angle)
+        workspace.inspector.changed.connect(self.result.refresh)
         self._refresh()
 
     def sizeHint(self) -> QSize:

@@ -5,14 +5,27 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
+from app.jobs.inspector import Standing
 from app.jobs.solver import SpanState
+from app.jobs.urgency import Key
 from app.panels.section import Section
+from app.verdict import describe_span, troubled_frames
 from app.workspace import Workspace
 from core.model import Layer
 from core.morph.report import Report
 from core.morph.scene import span_of
+
+SIGNS = {
+    Standing.NONE: "○",
+    Standing.STALE: "○",
+    Standing.SOLVING: "…",
+    Standing.FAILED: "✕",
+    Standing.CHECKING: "…",
+    Standing.SOUND: "✓",
+    Standing.UNSOUND: "⚠",
+}
 
 
 class ResultSection(Section):
@@ -23,11 +36,17 @@ class ResultSection(Section):
         self.state = _text()
         self.state.setAccessibleName(self.tr("State of the result"))
         self.add_wide(self.state)
+        self.go = QPushButton()
+        self.go.setToolTip(self.tr("Show the next frame in which something folds or crosses"))
+        self.go.setAccessibleName(self.tr("Go to the next troubled frame"))
+        self.go.clicked.connect(self._go)
+        self.add_wide(self.go)
         self._values: dict[str, QLabel] = {}
         self._shown = 0
+        self._next = 0
         for name, text, tip in (
             ("mesh", self.tr("Mesh"), self.tr("Vertices and triangles")),
-            ("folds", self.tr("Folds"), self.tr("Inverted triangles at the source and the target")),
+            ("folds", self.tr("Map folds"), self.tr("Inverted triangles at source and target")),
             ("mean", self.tr("Distortion"), self.tr("Mean over the area; 1 is perfectly rigid")),
             ("worst", self.tr("Worst"), self.tr("Distortion of the worst triangle")),
             ("time", self.tr("Solved in"), ""),
@@ -51,17 +70,20 @@ class ResultSection(Section):
         layer = self.workspace.selection.layer
         if layer is not None and layer.span_at(frame)[0] != self._shown:
             self.refresh()
+        elif layer is not None:
+            self._show_way(layer, self._shown)
 
     def text(self, name: str) -> str:
         """Return what is shown in a row."""
         return self._values[name].text()
 
     def _show(self, layer: Layer, index: int) -> None:
-        solver = self.workspace.solver
+        solver, place = self.workspace.solver, (layer.id, index)
         morph = solver.morph_of(span_of(layer, index))
-        state = solver.state(layer.id, index)
-        error = solver.errors.get((layer.id, index)) if state is SpanState.FAILED else None
-        self.state.setText(self._state(state, known=morph is not None, error=error))
+        state = solver.state(*place)
+        stale = morph is not None and state is not SpanState.SOLVED
+        self.state.setText(self._verdict(place, stale=stale))
+        self._show_way(layer, index)
         for value in self._values.values():
             value.setEnabled(state is SpanState.SOLVED)
             if morph is None:
@@ -69,14 +91,24 @@ class ResultSection(Section):
         if morph is not None:
             self._show_report(morph.report)
 
-    def _state(self, state: SpanState, *, known: bool, error: object) -> str:
-        stale = self.tr("Below: the result before the last change.") if known else ""
-        return {
-            SpanState.SOLVED: self.tr("✓ Solved"),
-            SpanState.SOLVING: " ".join((self.tr("… Solving."), stale)),
-            SpanState.FAILED: " ".join((self.tr("⚠ {}").format(error), stale)),
-            SpanState.NONE: " ".join((self.tr("○ Not solved."), stale)),
-        }[state].strip()
+    def _verdict(self, place: Key, *, stale: bool) -> str:
+        """Say how the span stands, and whether the numbers below are older than that."""
+        inspector = self.workspace.inspector
+        words = f"{SIGNS[inspector.standing(*place)]} {describe_span(inspector, *place)}"
+        return f"{words} {self.tr('Below: the result before the last change.')}" if stale else words
+
+    def _show_way(self, layer: Layer, index: int) -> None:
+        """Offer to go to the next troubled frame after the playhead, or else to the first."""
+        troubled = troubled_frames(self.workspace.inspector.check(layer.id, index))
+        self.go.setVisible(bool(troubled))
+        if troubled:
+            here = self.workspace.playhead.frame
+            self._next = next((frame for frame in troubled if frame > here), troubled[0])
+            self.go.setText(self.tr("Go to frame {}").format(self._next))
+
+    def _go(self) -> None:
+        self.workspace.playhead.stop()
+        self.workspace.playhead.move_to(self._next)
 
     def _show_report(self, report: Report) -> None:
         shown = {

@@ -6,8 +6,10 @@ from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QProgressBar, QPushButton, QSizePolicy, QStatusBar, QWidget
 
 from app.jobs.solver import SpanState
-from app.style import Colours, colours
+from app.style import colours
+from app.verdict import describe_frame, describe_span
 from app.workspace import Workspace
+from core.model import Layer
 from core.morph.scene import span_of
 
 TELL_MS = 50
@@ -53,6 +55,7 @@ class StatusStrip(QStatusBar):
         workspace.solver.progress.connect(self._on_progress)
         for signal in (
             workspace.solver.updated,
+            workspace.inspector.changed,
             workspace.session.changed,
             workspace.selection.changed,
             workspace.playhead.moved,
@@ -107,7 +110,7 @@ class StatusStrip(QStatusBar):
         if layer is None or not layer.spans or not layer.visible:
             self._set_verdict("", c.muted, "")
             return
-        index, t = layer.span_at(frame)
+        index, _ = layer.span_at(frame)
         state = self._workspace.solver.state(layer.id, index)
         if state is SpanState.SOLVING:
             if not self._late.isActive():  # else the last verdict may stand for a moment
@@ -118,14 +121,12 @@ class StatusStrip(QStatusBar):
         elif state is SpanState.NONE:
             self._set_verdict(self.tr("out of date"), c.solving, "")
         else:
-            s = layer.keyframes[index].easing(t)
-            self._set_verdict(*self._on_folds(index, s, c))
+            self._judge_frame(layer, index)
 
-    def _on_folds(self, index: int, s: float, c: Colours) -> tuple[str, str, str]:
-        from core.morph.quality import folds  # a morph is there, so what it loads is, too
-
-        morph = self._workspace.solver.morph_of(span_of(self._workspace.selection.layer, index))
-        report = morph.report
+    def _judge_frame(self, layer: Layer, index: int) -> None:
+        """Judge the in-between on screen by what the inspector saw."""
+        workspace, c = self._workspace, colours()
+        report = workspace.solver.morph_of(span_of(layer, index)).report
         tip = self.tr(
             "{triangles} triangles, mean distortion {mean:.3f}, smallest angle {angle:.0f}°"
         ).format(
@@ -133,14 +134,14 @@ class StatusStrip(QStatusBar):
             mean=report.distortion_mean,
             angle=57.29578 * report.smallest_angle,
         )
-        here = len(folds(morph.at(s), morph.triangles))
-        there = len(report.folds_target)
-        if here:
-            text = self.tr("{count} folded triangles") if here > 1 else self.tr("1 folded triangle")
-            return text.format(count=here), c.error, tip
-        if there:
-            return self.tr("folded at the target: {count}").format(count=there), c.error, tip
-        return self.tr("no folds"), c.solved, tip
+        tip = f"{describe_span(workspace.inspector, layer.id, index)}\n{tip}"
+        check = workspace.inspector.frame_check(layer.id, workspace.playhead.frame)
+        if check is None:
+            self._set_verdict(self.tr("checking…"), c.solving, tip)
+        elif check.sound:
+            self._set_verdict(self.tr("sound"), c.solved, tip)
+        else:
+            self._set_verdict(describe_frame(check), c.error, tip)
 
     def _set_verdict(self, text: str, colour: str, tip: str) -> None:
         self.badge.setVisible(bool(text))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
@@ -17,6 +19,8 @@ BAND = 5.0
 """Height of the band below it that shows its state."""
 PERIOD = 8.0
 """Pixels after which every pattern of the band repeats."""
+TICK = 3.0
+"""Width of the tick at a troubled frame."""
 
 
 def paint_span(painter: QPainter, box: QRectF, layer: Layer, *, hold: bool, current: bool) -> None:
@@ -69,24 +73,19 @@ def paint_state(painter: QPainter, box: QRectF, state: SpanState) -> None:
             painter.drawLine(*line)
 
 
+def paint_troubled(painter: QPainter, band: QRectF, places: Iterable[float]) -> None:
+    """Draw a tick across the band at each x of a frame that folds or crosses."""
+    for x in places:
+        if band.left() - TICK <= x <= band.right() + TICK:
+            tick = QRectF(x - TICK / 2, band.top() - 2, TICK, band.height() + 4)
+            painter.fillRect(tick, QColor(colours().error))
+
+
 def _dashed(colour: str, width: float, drawn: float, left_out: float) -> QPen:
     pen = QPen(QColor(colour), width)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     pen.setDashPattern([drawn / width, left_out / width])
     return pen
-
-
-def paint_failure(painter: QPainter, centre: QPointF) -> None:
-    """Draw a warning triangle in the middle of a span that could not be solved."""
-    c = colours()
-    x, y = centre.x(), centre.y()
-    painter.setPen(QPen(QColor(c.window), 1.5))
-    painter.setBrush(QColor(c.error))
-    corners = [QPointF(x, y - 9), QPointF(x + 10, y + 8), QPointF(x - 10, y + 8)]
-    painter.drawPolygon(QPolygonF(corners))
-    painter.setPen(QPen(QColor(c.on_accent), 2.0, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-    painter.drawLine(QPointF(x, y - 3), QPointF(x, y + 2))
-    painter.drawPoint(QPointF(x, y + 5.5))
 
 
 def paint_key(

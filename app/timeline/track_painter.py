@@ -7,11 +7,12 @@ from math import ceil, floor
 from PySide6.QtCore import QCoreApplication, QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from app.jobs.solver import SpanState
 from app.style import colours
 from app.timeline import painting
+from app.timeline.badge import ROOM, paint_badge
 from app.timeline.rows import ROW, Place, Rows
 from app.timeline.scale import LABEL_ROOM, multiples, step_for
+from app.verdict import troubled_frames
 from app.workspace import Workspace
 from core.model import Layer
 
@@ -70,8 +71,10 @@ def _paint_row(
         state = workspace.solver.state(layer.id, index)
         band = _visible(QRectF(left + 1, top + BAND, right - left - 2, painting.BAND), exposed)
         painting.paint_state(painter, band, state)
-        if state is SpanState.FAILED:
-            painting.paint_failure(painter, bar.center())
+        troubled = troubled_frames(workspace.inspector.check(layer.id, index))
+        painting.paint_troubled(painter, band, [rows.scale.x(frame) for frame in troubled])
+        if layer.visible and bar.width() >= ROOM:
+            paint_badge(painter, bar.center(), workspace.inspector.standing(layer.id, index))
 
 
 def _visible(band: QRectF, exposed: QRect) -> QRectF:

@@ -53,7 +53,7 @@ class Tracks(TimeWidget):
             "Down": partial(keys.choose_layer, workspace, -1),
         }
         workspace.selection.changed.connect(self._on_selection_changed)
-        workspace.solver.updated.connect(self.update)
+        workspace.inspector.changed.connect(self.update)
         self.on_document_changed()
 
     @property

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication
 
-from app.jobs.solver import SpanState
+from app.jobs.inspector import Standing
 from app.timeline.rows import Place
+from app.verdict import describe_span
 from app.workspace import Workspace
 from core.model import Easing
 from core.model.easing import PRESETS
@@ -51,11 +52,8 @@ def _describe_span(workspace: Workspace, place: Place) -> str:
     head = _tr("{}: {} to {}, {}").format(
         layer.name, first.frame, last.frame, easing_name(first.easing)
     )
-    error = workspace.solver.errors.get(place)
-    state = {
-        SpanState.SOLVED: _tr("Solved"),
-        SpanState.SOLVING: _tr("Solving …"),
-        SpanState.FAILED: str(error) if error else _tr("Could not be solved"),
-        SpanState.NONE: _tr("Not solved") if layer.visible else _tr("Not solved while hidden"),
-    }[workspace.solver.state(*place)]
-    return f"{head}\n{state}\n" + _tr("Double click to play only this")
+    hidden = not layer.visible and workspace.inspector.standing(*place) is Standing.NONE
+    verdict = (
+        _tr("Not solved while hidden.") if hidden else describe_span(workspace.inspector, *place)
+    )
+    return f"{head}\n{verdict}\n" + _tr("Double click to play only this")

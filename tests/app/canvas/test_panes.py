@@ -8,17 +8,20 @@ import numpy as np
 import pytest
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
 
 from app.canvas.mesh_overlay import areas, edges_of
 from app.canvas.moment import Role
 from app.canvas.pane import Pane
+from app.jobs.inspector import Standing
 from app.style import colours
 from core.errors import MarkError, OutlineError, Where
 from core.model import Document, Outline, Style
 from core.model.easing import HOLD, Easing
-from core.model.edits import add_layer, set_easing, update_layer
+from core.model.edits import add_layer, move_nodes, set_easing, update_layer
 from core.progress import Progress
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document, fan
+from tests.app.eye import PLACE, Eye
 
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 RED = Style(fill="#ff0000", stroke="", stroke_width=0.0)
@@ -353,3 +356,30 @@ def test_what_is_solved_in_a_moment_never_flickers(open_canvas, monkeypatch):
     QApplication.processEvents()
     assert states
     assert set(states) == {""}
+
+
+def test_the_place_of_a_crossing_is_ringed_at_its_frames_until_the_span_changes(
+    open_canvas: Callable[..., Hand], qtbot: QtBot
+) -> None:
+    eye = Eye(7, 8)
+    document = update_layer(a_document(marks=False), 1, style=RED)
+    hand = open_canvas(document, check=eye)
+    inspector = hand.workspace.inspector
+    qtbot.waitUntil(lambda: inspector.standing(1, 0) is Standing.UNSOUND)
+    rings = hand.pane(BETWEEN).trouble_rings
+    for frame, places in ((6, []), (7, PLACE.tolist()), (7.5, []), (8, PLACE.tolist()), (9, [])):
+        show(hand, frame)
+        assert rings.places.tolist() == places
+        assert (count(image(hand.pane(BETWEEN)), colours().error) > 0) == bool(places)
+    show(hand, 7)
+    assert not len(hand.pane(SOURCE).trouble_rings.places)
+    eye.gate.clear()
+    hand.workspace.session.apply("Move", move_nodes, 1, 0, 0, [0], (-1.0, 0.0))
+    QApplication.processEvents()
+    assert not len(rings.places)
+    eye.gate.set()
+    qtbot.waitUntil(lambda: len(rings.places) == 1)
+    hand.workspace.playhead.play()
+    QApplication.processEvents()
+    assert not len(rings.places)  # what plays is looked at, not worked on
+    hand.workspace.playhead.stop()

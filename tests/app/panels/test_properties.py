@@ -31,7 +31,8 @@ from core.model import Document, Easing, Turning
 from core.model.easing import EASE_IN, HOLD, PRESETS
 from core.model.edits import move_nodes, remove_layer, update_document, update_layer
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Method, Recipe
-from tests.app.panels.conftest import a_layer
+from tests.app.eye import Eye
+from tests.app.panels.conftest import a_layer, solve
 
 Key = Qt.Key
 LEFT = Qt.MouseButton.LeftButton
@@ -427,7 +428,7 @@ def test_the_result_of_the_span_is_shown(
 ) -> None:
     workspace.playhead.move_to(3)
     qtbot.waitUntil(lambda: workspace.solver.state(1, 0) is SpanState.SOLVED)
-    assert "Solved" in panel.result.state.text()
+    qtbot.waitUntil(lambda: "✓ Sound" in panel.result.state.text())
     text = panel.result.text
     assert text("mesh").split() == ["1234", "vertices", "2345", "triangles"]
     assert text("folds") == "⚠ 0 source, 2 target"
@@ -456,6 +457,32 @@ def test_a_result_from_before_the_last_change_is_marked_stale(
     assert "1234" in panel.result.text("mesh")
     workspace.solver.resume()
     qtbot.waitUntil(lambda: "✓" in panel.result.state.text())
+
+
+def test_a_crossing_is_told_in_words_and_a_click_goes_from_frame_to_frame(
+    open_workspace: Callable[..., Workspace], qtbot: QtBot
+) -> None:
+    eye = Eye(4, 5, 9)
+    workspace = open_workspace(Document((a_layer(1, 1, 13),)), solve, eye)
+    panel = PropertiesPanel(workspace)
+    qtbot.addWidget(panel)
+    panel.show()
+    said, go = panel.result.state, panel.result.go
+    qtbot.waitUntil(lambda: said.text() == "⚠ Crosses itself at frames 4 to 5, 9.")
+    for frame in (4, 5, 9, 4):
+        assert go.text() == f"Go to frame {frame}"
+        QTest.mouseClick(go, Qt.MouseButton.LeftButton)
+        assert workspace.playhead.frame == frame
+    workspace.playhead.move_to(6)
+    assert go.text() == "Go to frame 9"
+    eye.gate.clear()
+    workspace.session.apply("Move", move_nodes, 1, 0, 0, [0], (-1.0, 0.0))
+    assert "Crosses" not in said.text()
+    assert not go.isVisible()
+    eye.crossing = set()
+    eye.gate.set()
+    qtbot.waitUntil(lambda: "✓ Sound" in said.text())
+    assert not go.isVisible()
 
 
 # -- looks -------------------------------------------------------------------------------------

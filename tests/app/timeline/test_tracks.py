@@ -291,7 +291,7 @@ def test_the_tooltip_of_a_span_tells_how_it_stands_and_why_it_failed(
         return QToolTip.text()
 
     assert "Draw them anew." in tip(20)
-    assert "Solved" in tip(12)
+    qtbot.waitUntil(lambda: "Sound" in tip(12))
     assert "keyframe at frame 9" in tip(9)
 
 
@@ -326,7 +326,7 @@ class PaintWatch(QObject):
 def test_a_moving_playhead_repaints_a_strip_and_not_the_whole_timeline(
     timeline: Timeline, workspace: Workspace, qtbot: QtBot
 ) -> None:
-    qtbot.waitUntil(lambda: not workspace.solver.busy)
+    qtbot.waitUntil(lambda: not workspace.solver.busy and not workspace.inspector.busy)
     QApplication.processEvents()
     watch = PaintWatch()
     timeline.tracks.installEventFilter(watch)

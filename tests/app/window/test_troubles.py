@@ -146,7 +146,7 @@ def test_cancel_in_the_status_bar_stops_solving_and_can_be_taken_back(
     qtbot.waitUntil(lambda: "out of date" in window.status.badge.text())
     waiting[0] = False
     QTest.mouseClick(mends(window)["Solve again"], LEFT)
-    qtbot.waitUntil(lambda: "no folds" in window.status.badge.text())
+    qtbot.waitUntil(lambda: "sound" in window.status.badge.text())
     assert not window.messages.text
 
 

@@ -58,7 +58,7 @@ def test_draw_mark_solve_scrub_export_save_and_open_again(
         hand.click(Role.SOURCE, hand.place(Role.SOURCE, corner))
     assert document().layers[0].labels == ("a", "b")
     qtbot.waitUntil(solved(window))
-    qtbot.waitUntil(lambda: "no folds" in window.status.badge.text())
+    qtbot.waitUntil(lambda: "sound" in window.status.badge.text())
 
     seen = []
     for frame in (1, 7, 13, 19, 25):
