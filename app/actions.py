@@ -15,7 +15,7 @@ from PySide6.QtCore import QCoreApplication
 from app.document.playhead import Loop, Playhead
 from app.document.selection import Selection
 from app.document.session import Session
-from app.workspace import ViewOptions
+from app.workspace import ShowSuggestions, ViewOptions
 from core.model.easing import PRESETS
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from app.commands import Commands
     from app.files.files import Files
     from app.jobs.solver import Solver
+    from app.jobs.suggestions import Suggestions
     from app.main_window import MainWindow
 
 
@@ -35,6 +36,7 @@ class Desk:
     playhead: Playhead
     solver: Solver
     view: ViewOptions
+    suggestions: Suggestions
     canvas: Canvas
     commands: Commands
     files: Files
@@ -93,6 +95,10 @@ def _mark(d: Desk) -> bool:
     return d.selection.mark is not None
 
 
+def _suggested(d: Desk) -> bool:
+    return bool(d.suggestions.shown)
+
+
 def _deletable(d: Desk) -> bool:
     return bool(d.selection.nodes) or _mark(d) or _span(d)
 
@@ -128,6 +134,19 @@ def _layout(layout: str, text: str, keys: str, icon: str) -> Entry:
 
     return Entry(
         icon, text, lambda d: d.view.update(layout=layout), (keys,), icon, on=is_on, group="layout"
+    )
+
+
+def _suggestions(when: ShowSuggestions, text: str) -> Entry:
+    def is_on(d: Desk) -> bool:
+        return d.view.suggestions == when
+
+    return Entry(
+        f"suggestions-{when}",
+        text,
+        lambda d: d.view.update(suggestions=when),
+        on=is_on,
+        group="suggestions",
     )
 
 
@@ -188,6 +207,19 @@ def _draw_key(d: Desk) -> None:
         d.canvas.set_tool("pen")
 
 
+def _suggest(d: Desk) -> None:
+    """Accept what is suggested, if that can be seen; else show it."""
+    if d.suggestions.shown:
+        d.commands.accept_suggestions()
+    else:
+        d.canvas.set_tool("marks")
+        d.commands.show_suggestions()
+
+
+def _suggest_title(d: Desk) -> str:
+    return translated("&Accept all suggested marks" if _suggested(d) else "&Suggest marks")
+
+
 def _undo_title(d: Desk) -> str:
     return translated("&Undo {step}").format(step=d.session.undo_stack.undoText())
 
@@ -236,6 +268,9 @@ ENTRIES: tuple[Entry, ...] = (
     _option("onion", "Show &onion skin", "O", "onion"),
     _option("mesh", "Show mes&h", "Shift+M", "mesh"),
     _option("marks", "Show mar&ks", "Ctrl+M"),
+    _suggestions("with the tool", "&While marks are placed"),
+    _suggestions("always", "&Always"),
+    _suggestions("never", "&Never"),
     _theme("dark", "&Dark"),
     _theme("light", "&Light"),
     _theme("system", "&System"),
@@ -266,8 +301,10 @@ ENTRIES: tuple[Entry, ...] = (
           ("Shift+Del",), "delete", _span),
     *(_easing(preset) for preset in PRESETS),
 
-    Entry("suggest-marks", "&Suggest marks", lambda d: d.commands.suggest_marks(),
-          ("Ctrl+Shift+M",), when=_span),
+    Entry("suggest-marks", "&Suggest marks", _suggest, ("Ctrl+Shift+M",), when=_span,
+          title=_suggest_title),
+    Entry("hide-suggestions", "&Hide suggested marks", lambda d: d.commands.hide_suggestions(),
+          when=_suggested),
     Entry("remove-mark", "&Delete mark", lambda d: d.commands.remove_mark(), (), "delete", _mark),
     Entry("remove-marks", "Delete &all marks", lambda d: d.commands.remove_all_marks(),
           when=_marked),

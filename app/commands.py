@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
-from app.canvas.tools.edits import delete_nodes, suggest_marks
+from app.canvas.tools.edits import delete_nodes
 from app.workspace import Workspace
 from core.errors import EditError
 from core.model import Layer
@@ -34,7 +34,7 @@ class Commands(QObject):
         super().__init__(parent)
         self._session, self._selection = workspace.session, workspace.selection
         self._playhead, self._solver = workspace.playhead, workspace.solver
-        self._view = workspace.view
+        self._view, self._suggestions = workspace.view, workspace.suggestions
 
     # -- edit ----------------------------------------------------------------------------------
 
@@ -114,17 +114,28 @@ class Commands(QObject):
 
     # -- marks ---------------------------------------------------------------------------------
 
-    def suggest_marks(self) -> None:
-        """Add the marks that the span under the playhead needs besides those it has."""
-        layer = self._unlocked()
-        span, _ = layer.span_at(self._playhead.frame)
-        self._session.apply(self.tr("Suggest marks"), suggest_marks, layer.id, span)
-        added = self._session.document.layer(layer.id).labels[len(layer.labels) :]
+    def show_suggestions(self) -> None:
+        """Show the marks that the span under the playhead is better off with."""
+        self._unlocked()
         self._view.update(marks=True)
-        text = self.tr("These two outlines need no more marks.")
+        if self._view.suggestions == "never":
+            self._view.update(suggestions="with the tool")
+        if self._suggestions.visible and self._suggestions.current and not self._suggestions.shown:
+            self.noted.emit(self.tr("These two outlines need no more marks."))
+
+    def accept_suggestions(self) -> None:
+        """Make marks of all suggestions."""
+        layer = self._unlocked()
+        self._suggestions.accept_all()
+        added = self._session.document.layer(layer.id).labels[len(layer.labels) :]
         if added:
             text = self.tr("Marks added: {count} ({letters}). Drag any that you want elsewhere.")
-        self.noted.emit(text.format(count=len(added), letters=", ".join(added)))
+            self.noted.emit(text.format(count=len(added), letters=", ".join(added)))
+
+    def hide_suggestions(self) -> None:
+        """Show no suggestions until they are asked for."""
+        self._view.update(suggestions="never")
+        self.noted.emit(self.tr("Suggested marks are hidden. Ctrl+Shift+M shows them again."))
 
     def remove_mark(self) -> None:
         """Remove the selected mark."""

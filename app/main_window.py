@@ -24,12 +24,14 @@ from app.help import show_about, show_shortcuts
 from app.icons import retint
 from app.jobs.inspector import Inspector
 from app.jobs.solver import Solver
+from app.jobs.suggestions import Suggestions
 from app.keys import KeyManners
 from app.menus import PANELS, RECENT, TOOLS, TOP_BAR, Actions
 from app.panels.layers import LayersPanel
 from app.panels.messages import MessageBar
 from app.panels.properties import PropertiesPanel
 from app.panels.status import StatusStrip
+from app.panels.suggestion_bar import SuggestionBar
 from app.panels.welcome import WelcomePanel
 from app.reporting import Reporter
 from app.settings import Settings
@@ -66,6 +68,8 @@ class MainWindow(QMainWindow):
         self.properties = PropertiesPanel(self.workspace)
         self.welcome = WelcomePanel(resources.samples(), self.settings)
         self.status = StatusStrip(self.workspace)
+        self.suggested = SuggestionBar(self.workspace.suggestions)
+        self.status.insertPermanentWidget(1, self.suggested)
         self.messages = MessageBar(self.canvas)
         self.files = Files(self.workspace, self.settings, self)
         self.commands = Commands(self.workspace, self)
@@ -90,7 +94,7 @@ class MainWindow(QMainWindow):
 
     def _make_actions(self) -> None:
         w = self.workspace
-        parts = (w.session, w.selection, w.playhead, w.solver, w.view)
+        parts = (w.session, w.selection, w.playhead, w.solver, w.view, w.suggestions)
         self.actions_ = Actions(Desk(*parts, self.canvas, self.commands, self.files, self))
         self.actions_.fill_menu_bar(self.menuBar())
         recent = RecentMenu(self.actions_.menus[RECENT], self.settings)
@@ -113,6 +117,7 @@ class MainWindow(QMainWindow):
             w.playhead.loop_changed,
             w.solver.busy_changed,
             w.view.changed,
+            w.suggestions.changed,
             self.canvas.tool_changed,
             self.beginning.changed,
         ):
@@ -121,6 +126,8 @@ class MainWindow(QMainWindow):
         self.canvas.hint_changed.connect(self.status.set_hint)
         self.status.set_hint(self.canvas.hint)
         self.status.cancel_asked.connect(self._cancel_solving)
+        self.suggested.accept.clicked.connect(self.commands.accept_suggestions)
+        self.suggested.hide_all.clicked.connect(self.commands.hide_suggestions)
         self.commands.noted.connect(self.reporter.note)
         self.autosave.failed.connect(self.reporter.show_refusal)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop_theme)
@@ -214,6 +221,7 @@ class MainWindow(QMainWindow):
         self.actions_.close()
         self._manners.close()
         self.autosave.close()
+        self.workspace.suggestions.close()
         self.workspace.inspector.close()
         self.workspace.solver.close()
         self.workspace.session.close()
@@ -239,7 +247,9 @@ def _new_workspace(window: QMainWindow) -> Workspace:
     selection, playhead = Selection(session, window), Playhead(session, window)
     solver = Solver(session, selection, playhead, parent=window)
     inspector = Inspector(session, selection, playhead, solver, parent=window)
-    return Workspace(session, selection, playhead, solver, inspector, ViewOptions(window))
+    view = ViewOptions(window)
+    suggestions = Suggestions(session, selection, playhead, solver, view, window)
+    return Workspace(session, selection, playhead, solver, inspector, view, suggestions)
 
 
 def _files(urls: list[QUrl]) -> list[Path]:

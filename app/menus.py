@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar
 
 from app.actions import ENTRIES, Desk, Entry, translated
 from app.icons import set_icon
+from app.workspace import SUGGESTIONS
 from core.errors import MorphError
 from core.model.easing import PRESETS
 
@@ -27,14 +28,16 @@ MENUS: tuple[Menu, ...] = (
                "quit")),
     ("&Edit", ("undo", "redo", "-", "delete", "select-all", "-", ("&Tool", TOOLS))),
     ("&View", ("fit", "zoom-drawing", "zoom-100", "flip", "-", "side-by-side", "overlay", "-",
-               "onion", "mesh", "marks", "-",
+               "onion", "mesh", "marks",
+               ("Su&ggested marks", tuple(f"suggestions-{when}" for when in SUGGESTIONS)), "-",
                ("&Theme", ("theme-dark", "theme-light", "theme-system")), (PANELS, ()),
                "reset-layout", "full-screen")),
     ("&Layer", ("add-layer", "duplicate-layer", "remove-layer", "-", "raise-layer", "lower-layer",
                 "-", "layer-above", "layer-below", "-", "layer-visible", "layer-locked")),
     ("&Keyframe", ("insert-key", "draw-key", "remove-key", "-", "previous-key", "next-key", "-",
                    ("&Easing of the span", tuple(f"easing-{preset}" for preset in PRESETS)))),
-    ("&Mark", ("tool-marks", "suggest-marks", "marks", "-", "remove-mark", "remove-marks")),
+    ("&Mark", ("tool-marks", "suggest-marks", "hide-suggestions", "marks", "-", "remove-mark",
+               "remove-marks")),
     ("&Playback", ("play", "play-from-start", "stop", "-", "previous-frame", "next-frame", "first",
                    "last", "-", ("At the &end", ("loop-loop", "loop-ping-pong", "loop-once")),
                    "-", "solve", "cancel")),

@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QByteArray, QObject, QSettings, QStandardPaths, Signal
 
 from app.style import THEMES, Theme
-from app.workspace import ViewOptions
+from app.workspace import SUGGESTIONS, ViewOptions
 
 RECENT = 10
 VIEW_OPTIONS = ("mesh", "onion", "marks")
@@ -81,11 +81,13 @@ class Settings(QObject):
         """Show what was shown last."""
         options = {name: self._flag(f"view/{name}", getattr(view, name)) for name in VIEW_OPTIONS}
         layout = "overlay" if self._store.value("view/layout") == "overlay" else "side by side"
-        view.update(**options, layout=layout)
+        when = self._store.value("view/suggestions")
+        suggestions = when if when in SUGGESTIONS else view.suggestions
+        view.update(**options, layout=layout, suggestions=suggestions)
 
     def save_view(self, view: ViewOptions) -> None:
         """Remember what is shown."""
-        for name in (*VIEW_OPTIONS, "layout"):
+        for name in (*VIEW_OPTIONS, "layout", "suggestions"):
             self._store.setValue(f"view/{name}", getattr(view, name))
 
     def window_state(self) -> tuple[QByteArray, QByteArray] | None:

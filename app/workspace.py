@@ -13,8 +13,11 @@ if TYPE_CHECKING:
     from app.document.session import Session
     from app.jobs.inspector import Inspector
     from app.jobs.solver import Solver
+    from app.jobs.suggestions import Suggestions
 
 Layout = Literal["side by side", "overlay"]
+ShowSuggestions = Literal["with the tool", "always", "never"]
+SUGGESTIONS: tuple[ShowSuggestions, ...] = ("with the tool", "always", "never")
 
 
 class ViewOptions(QObject):
@@ -27,6 +30,8 @@ class ViewOptions(QObject):
         self.mesh = False
         self.onion = True
         self.marks = True
+        self.suggestions: ShowSuggestions = "with the tool"
+        """When suggested marks are shown."""
         self.layout: Layout = "side by side"
 
     def update(self, **changes: object) -> None:
@@ -48,3 +53,4 @@ class Workspace:
     solver: Solver
     inspector: Inspector
     view: ViewOptions
+    suggestions: Suggestions

@@ -94,6 +94,7 @@ class Canvas(QWidget):
             return
         self._tool.put_away()
         self._tool = self._tools[name]
+        self._workspace.suggestions.set_placing(name == MarksTool.name)
         self.tool_changed.emit(name)
         self._after_tool()
 
@@ -326,6 +327,7 @@ class Canvas(QWidget):
             w.playhead.playing_changed,
             w.solver.updated,
             w.inspector.changed,
+            w.suggestions.changed,
         ):
             signal.connect(self._refresh_soon)
         w.playhead.moved.connect(self._on_playhead_moved)

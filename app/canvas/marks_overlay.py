@@ -69,10 +69,10 @@ class MarksOverlay(Overlay):
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
 
 
-def letter_centres(view: View, pins: Pins) -> Array:
-    """Return (k, 2) pixels of a view where the letters stand."""
+def letter_centres(view: View, pins: Pins, stalk: float = STALK) -> Array:
+    """Return (k, 2) pixels of a view where the letters stand, at the end of stalks."""
     mirror = np.sign(view.to_screen([1.0, 0.0]) - view.to_screen([0.0, 0.0]))[0]
-    return view.to_screen(pins.places) + STALK * pins.outward * [mirror, 1.0]
+    return view.to_screen(pins.places) + stalk * pins.outward * [mirror, 1.0]
 
 
 def mark_at(view: View, pins: Pins, pixel: Array, reach: float) -> int | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.artboard import Artboard
@@ -17,7 +18,8 @@ from app.canvas.mesh_overlay import MeshOverlay
 from app.canvas.moment import Moment, Role, edited_key
 from app.canvas.onion import AFTER, BEFORE, OnionSkin
 from app.canvas.overlay import ToolOverlay
-from app.canvas.pins import NO_PINS, pins_between, pins_on_key
+from app.canvas.pins import NO_PINS, pins_at, pins_between, pins_on_key
+from app.canvas.suggestions_overlay import NOTHING, SuggestedPins, SuggestionsOverlay
 from app.canvas.trouble_rings import TroubleRings
 from app.canvas.view import View
 from app.jobs.solver import SpanState
@@ -53,13 +55,14 @@ class Pane(QWidget):
         for z, item in enumerate((self._board, self._onion, self.artwork)):
             self.view.add_artwork(item, z)
         self._mesh = MeshOverlay(self.view, 5)
-        self._marks, self.tool_overlay = MarksOverlay(self.view), ToolOverlay(self.view)
-        self.error_ring, self._invitation = ErrorRing(self.view), Invitation(self.view)
-        self.trouble_rings = TroubleRings(self.view)
+        self._invitation, self.tool_overlay = Invitation(self.view), ToolOverlay(self.view)
+        self._suggestions, self._marks = SuggestionsOverlay(self.view), MarksOverlay(self.view)
+        self.trouble_rings, self.error_ring = TroubleRings(self.view), ErrorRing(self.view)
         overlays = (
             self._invitation,
             self.trouble_rings,
             self.tool_overlay,
+            self._suggestions,
             self._marks,
             self.error_ring,
         )
@@ -109,7 +112,8 @@ class Pane(QWidget):
         self.view.rest_cursor(tool.cursor)
         self.tool_overlay.tool = tool
         at_rest = not self._workspace.playhead.playing or (tool.aims and not self.live)
-        for item in (self.tool_overlay, self._marks):  # what plays is looked at, not worked on
+        for item in (self.tool_overlay, self._suggestions, self._marks):
+            # what plays is looked at, not worked on
             item.setVisible(at_rest or tool.busy)
         if repaint:
             self.tool_overlay.update()
@@ -129,6 +133,7 @@ class Pane(QWidget):
         self._show_onion(moment)
         self._show_mesh(moment)
         self._show_marks(moment)
+        self._show_suggestions()
         self._show_error(moment, error)
         self._show_trouble(moment)
         self._invitation.show_text(*self._invite(moment), moment.document.background)
@@ -184,6 +189,30 @@ class Pane(QWidget):
             self._marks.show_marks(layer.labels, pins, selected)
         else:
             self._marks.show_marks((), NO_PINS, None)
+
+    @property
+    def suggested(self) -> SuggestedPins:
+        """The suggested marks that are seen here: of a key, or in the overlay of both."""
+        suggestions, layer = self._workspace.suggestions, self._workspace.selection.layer
+        shown, span = suggestions.shown, suggestions.span
+        if layer is None or not shown or self.role is Role.IN_BETWEEN:
+            return NOTHING
+        keys = {Role.SOURCE: [span], Role.TARGET: [span + 1]}.get(self.role, [span, span + 1])
+        keys.sort(key=lambda key: key != self.key)  # numbers go to the one that is edited
+        outlines = [layer.keyframes[key].outline for key in keys]
+        return SuggestedPins(
+            tuple(
+                (key, pins_at(outline, [suggestion.places[key] for suggestion in shown]))
+                for key, outline in zip(keys, outlines, strict=True)
+            ),
+            np.array([suggestion.confidence for suggestion in shown]),
+            suggestions.current,
+        )
+
+    def _show_suggestions(self) -> None:
+        keyframe = self.keyframe
+        marks = NO_PINS if keyframe is None else pins_on_key(keyframe)
+        self._suggestions.show_suggestions(self.suggested, marks)
 
     def _show_error(self, moment: Moment, error: MorphError | None) -> None:
         keyframe = self.keyframe

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -32,11 +33,15 @@ NO_PINS = Pins(np.empty((0, 2)), np.empty((0, 2)))
 
 def pins_on_key(keyframe: Keyframe) -> Pins:
     """Return the pins of a keyframe's marks."""
-    if not keyframe.marks:
+    return pins_at(keyframe.outline, keyframe.marks)
+
+
+def pins_at(outline: Outline, marks: Sequence[RingPoint]) -> Pins:
+    """Return the pins of places on an outline."""
+    if not marks:
         return NO_PINS
-    outline = keyframe.outline
-    places = np.array([outline.position(mark) for mark in keyframe.marks])
-    return Pins(places, np.array([outward_at(outline, mark) for mark in keyframe.marks]))
+    places = np.array([outline.position(mark) for mark in marks])
+    return Pins(places, np.array([outward_at(outline, mark) for mark in marks]))
 
 
 def pins_between(source: Keyframe, morph: Morph, positions: Array) -> Pins:

@@ -14,6 +14,7 @@ from app.document.selection import Selection
 from app.document.session import Session
 from app.jobs.inspector import Check, Inspector, check_outwards
 from app.jobs.solver import Solve, Solver
+from app.jobs.suggestions import Suggestions
 from app.workspace import ViewOptions, Workspace
 from core.model import Document
 from core.morph.scene import TimedSpan, solve_span
@@ -57,11 +58,14 @@ def open_workspace(qapp: QObject) -> Iterator[Callable[..., Workspace]]:
         solver = Solver(session, selection, playhead, solve)
         check = check or (check_outwards if solve is solve_span else find_nothing)
         inspector = Inspector(session, selection, playhead, solver, check)
-        opened.append(Workspace(session, selection, playhead, solver, inspector, ViewOptions()))
+        view = ViewOptions()
+        suggestions = Suggestions(session, selection, playhead, solver, view)
+        opened.append(Workspace(session, selection, playhead, solver, inspector, view, suggestions))
         return opened[-1]
 
     yield open_it
     for workspace in opened:
+        workspace.suggestions.close()
         workspace.inspector.close()
         workspace.solver.close()
         workspace.session.close()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,12 +10,9 @@ import numpy as np
 from core.errors import EditError
 from core.geometry.flatten import flatten
 from core.geometry.places import nearest_place, tracks
-from core.model import Document, Keyframe, Layer, Outline, Ring, RingPoint, edits
+from core.model import Document, Keyframe, Outline, Ring, RingPoint, edits
 from core.model.outline import Array
-from core.morph.suggest import mate, suggest_for
-
-SURE = 0.25
-"""Confidence of a suggested mark that is worth a letter; along smooth arcs there is less."""
+from core.morph.suggest import mate
 
 Nodes = frozenset[tuple[int, int]]
 """(ring, node) pairs."""
@@ -74,34 +71,6 @@ def _fill_hole(document: Document, layer_id: int, key: int, ring: int) -> Docume
         return replace(mark, ring=mark.ring - (mark.ring > ring))
 
     return edits.replace_outline(document, layer_id, key, outline, [*map(shifted, old.marks)])
-
-
-def place_mark(document: Document, layer_id: int, key: int, place: RingPoint) -> Document:
-    """Add a mark on one keyframe, with proposed mates on all others."""
-    layer = document.layer(layer_id)
-    return edits.add_mark(document, layer_id, mates(layer, {key: place}))
-
-
-def suggest_marks(document: Document, layer_id: int, span: int) -> Document:
-    """Add the marks that a span needs besides those it has, with mates on all other keyframes."""
-    source, target = document.layer(layer_id).keyframes[span : span + 2]
-    pairs = list(zip(source.marks, target.marks, strict=True))
-    for here, there, confidence in suggest_for(source.outline, target.outline, pairs):
-        if confidence >= SURE:
-            places = mates(document.layer(layer_id), {span: here, span + 1: there})
-            document = edits.add_mark(document, layer_id, places)
-    return document
-
-
-def mates(layer: Layer, known: Mapping[int, RingPoint]) -> list[RingPoint]:
-    """Return a place on every keyframe, proposed from the nearest of adjacent ones that have it."""
-    keys, places = layer.keyframes, dict(known)
-    onward = [(k - 1, k) for k in range(max(known) + 1, len(keys))]
-    back = [(k + 1, k) for k in range(min(known) - 1, -1, -1)]
-    for near, new in (*onward, *back):
-        pairs = list(zip(keys[near].marks, keys[new].marks, strict=True))
-        places[new] = mate(keys[near].outline, keys[new].outline, places[near], pairs)
-    return [places[k] for k in range(len(keys))]
 
 
 def slide_mark(document: Document, layer_id: int, key: int, mark: int, length: float) -> Document:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,17 +16,19 @@ from app.canvas.marks_overlay import mark_at
 from app.canvas.moment import Role
 from app.canvas.pins import pins_on_key
 from app.canvas.pointer import REACH, Pointer
+from app.canvas.suggestions_overlay import suggestion_at
 from app.canvas.tools import edits as composed
 from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
+from app.document.selection import Selection
 from app.document.session import Session
 from app.style import colours
 from app.workspace import Workspace
 from core.geometry.places import nearest_place, tracks
 from core.geometry.polyline import points_at
-from core.model import Layer, Outline, RingPoint, edits
-from core.model.layer import mark_labels
+from core.model import Document, Layer, Outline, RingPoint, edits
 from core.model.outline import Array
-from core.morph.suggest import mate, snap
+from core.morph.layer_match import Suggestion
+from core.morph.suggest import snap
 
 if TYPE_CHECKING:
     from app.canvas.pane import Pane
@@ -35,79 +38,101 @@ NEAR = 3.0
 
 
 @dataclass
-class MoveMark:
-    """A drag of a mark along its outline; it snaps to corners unless Shift is held."""
+class DragMark:
+    """A drag of a mark along an outline; it snaps to corners unless Shift is held."""
 
     session: Session
+    selection: Selection
     text: str
-    layer_id: int
-    key: int
     mark: int
     outline: Outline
     offset: Array
     """From the mouse to the marked place, at the press."""
+    put: Callable[[Document, RingPoint], Document]
+    """The edit that puts the mark at a place."""
 
     def move(self, pointer: Pointer) -> None:
         """Put the mark where the mouse points."""
         place, _ = nearest_place(self.outline, pointer.position + self.offset)
         if not pointer.shift:
             place = snap(self.outline, place, pointer.reach)
-        self.session.apply(self.text, edits.move_mark, self.layer_id, self.key, self.mark, place)
+        self.session.apply(self.text, self.put, place)
+        self.selection.select_mark(self.mark)
 
     def end(self, pointer: Pointer) -> None:
         """Nothing is left to do."""
 
 
 class MarksTool(Tool):
-    """Places and drags marks."""
+    """Places and drags marks, and makes marks of suggestions."""
 
     name = "marks"
     aims = True
 
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(workspace, parent)
+        self.suggestions = workspace.suggestions
+        self.suggestions.placed.connect(self._on_placed)
         self._pane: Pane | None = None
         self._mark: int | None = None
+        self._suggestion: Suggestion | None = None
+        """What is under the mouse, if it is current, …"""
+        self._suggested_key = 0
+        """… and the keyframe on which that is."""
         self._places: dict[int, RingPoint] = {}
         """Where a click would put a mark, by keyframe: the one under the mouse and its mate's."""
-        self._thread = ThreadPoolExecutor(1, "mates")
-        self._matched: object = None
-        """The outlines whose mates are being looked for, or are at hand."""
-        self._matching: Future[RingPoint] | None = None
+        self._chosen: Suggestion | None = None
+        """The suggestion that the keys have come to."""
         self._placed = ""
         """The letter that was placed last."""
 
     def hover(self, pointer: Pointer) -> None:
-        """Find the mark under the mouse, or where a click would place one."""
-        self._pane, self._mark, self._places = pointer.pane, self._mark_at(pointer), {}
+        """Find the mark or suggestion under the mouse, or where a click would place a mark."""
+        self._look_at(pointer)
+        self._places = {}
         layer, key = self.layer, pointer.pane.key
-        if self._mark is None and layer is not None and key is not None:
+        hit = self._mark is not None or self._suggestion is not None
+        if not hit and layer is not None and key is not None:
             place = self._place_at(pointer)
             self._places = self._proposed(layer, key, place) if place else {}
-        taken = self._mark is not None or self._places
+        taken = hit or self._places
         self.cursor = Qt.CursorShape.PointingHandCursor if taken else Qt.CursorShape.ArrowCursor
 
     def leave(self) -> None:
         """Forget the hover."""
         super().leave()
-        self._pane, self._mark, self._places = None, None, {}
+        self._pane, self._mark, self._suggestion, self._places = None, None, None, {}
 
     def grab(self, pointer: Pointer) -> Gesture | None:
-        """Select the mark under the mouse and take it."""
+        """Take the mark under the mouse, selecting it, or the suggestion."""
+        self._chosen = None
         layer, keyframe = self.editable(pointer.pane), pointer.pane.keyframe
-        self._mark = self._mark_at(pointer)
-        if layer is None or keyframe is None or self._mark is None:
+        self._look_at(pointer)
+        if layer is None or keyframe is None:
             return None
-        self.selection.select_mark(self._mark)
-        offset = keyframe.outline.position(keyframe.marks[self._mark]) - pointer.position
-        text = self.tr("Move mark {letter}").format(letter=layer.labels[self._mark])
-        return MoveMark(
-            self.session, text, layer.id, self.selection.key, self._mark, keyframe.outline, offset
-        )
+        key, outline = self.selection.key, keyframe.outline
+        if self._mark is not None:
+            self.selection.select_mark(self._mark)
+            mark, place = self._mark, keyframe.marks[self._mark]
+            text = self.tr("Move mark {letter}").format(letter=layer.labels[mark])
+            put = partial(_moved, layer.id, key, mark)
+        elif self._suggestion is not None:
+            key = self._suggested_key
+            mark, place = len(layer.labels), self._suggestion.places[key]
+            outline = layer.keyframes[key].outline
+            text = self.tr("Place mark {letter}").format(letter=layer.next_label)
+            put = partial(_added, layer.id, key, self._suggestion)
+        else:
+            return None
+        offset = outline.position(place) - pointer.position
+        return DragMark(self.session, self.selection, text, mark, outline, offset, put)
 
     def click(self, pointer: Pointer) -> None:
-        """Place a mark on the outline."""
+        """Accept the suggestion under the mouse, or place a mark on the outline."""
         if self._mark is not None:
+            return
+        if self._suggestion is not None:
+            self.suggestions.accept(self._suggestion)
             return
         place, key = self._place_at(pointer), pointer.pane.key
         layer = self.editable(pointer.pane)
@@ -116,16 +141,18 @@ class MarksTool(Tool):
         if place is None:
             self.selection.select_mark(None)
             return
-        self._add(layer, key, place)
+        self.suggestions.place({key: place})
 
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
-        """Add a mark, step through them, move the selected one along the outline, delete it."""
+        """Add a mark, accept suggestions, step through both, move or delete the selected mark."""
         layer, mark = self.layer, self.selection.mark
         if layer is None:
             return None
         if key == Qt.Key.Key_Insert:
             return self._insert
-        if not layer.labels:
+        if self.suggestions.shown and key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            return self._accept
+        if not layer.labels and not self.suggestions.shown:
             return None
         if key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             return self._previous if key == Qt.Key.Key_Backtab else self._next
@@ -143,7 +170,10 @@ class MarksTool(Tool):
         layer = self.selection.layer
         if layer is None:
             return self.tr("Marks go on outlines: press P or B and draw one first")
-        letter = _next_letter(layer)
+        letter, number, count = layer.next_label, 0, len(self.suggestions.shown)
+        pointed = self._suggestion or self._chosen
+        if pointed in self.suggestions.shown:
+            number = self.suggestions.shown.index(pointed) + 1
         if self._mark is not None and self._mark < len(layer.labels):
             letter = layer.labels[self._mark]
             text = self.tr("Drag mark {letter} along the outline; Del deletes it")
@@ -151,37 +181,80 @@ class MarksTool(Tool):
                 text = self.tr(
                     "Mark {letter} is placed: drag it on the other outline if its mate is not right"
                 )
+        elif number and pointed is self._suggestion:
+            text = self.tr(
+                "Click to accept suggestion {number} as mark {letter}, or drag it elsewhere"
+            )
+        elif number:
+            text = self.tr("Enter accepts suggestion {number} as mark {letter}; Tab goes on")
+        elif self.suggestions.waiting:
+            text = self.tr("Looking for the mate of mark {letter}…")
         elif len(self._places) > 1:
             text = self.tr("Click to place mark {letter}; its mate is proposed as shown")
         elif self._places and len(layer.keyframes) > 1:
             text = self.tr("Click to place mark {letter}; its mate is proposed too")
         elif self._pane is not None and self._pane.key is None:
             text = self.tr("Marks go on the source or the target outline, not in between")
+        elif count and self.suggestions.current:
+            text = self.tr(
+                "Click a corner to place mark {letter}, or a suggestion to accept it;"
+                " Enter accepts all {count}, Esc hides them"
+            )
         else:
             text = self.tr("Click a corner of the outline to place mark {letter}")
-        return text.format(letter=letter)
+        return text.format(letter=letter, number=number, count=count)
 
     @property
     def seen(self) -> object:
         """What is under the mouse."""
-        return self._pane, self._mark, tuple(self._places.items())
+        pointed = self._mark, self._suggestion, self._chosen
+        return self._pane, *pointed, tuple(self._places.items()), self.suggestions.waiting
+
+    @property
+    def busy(self) -> bool:
+        """Whether Esc has something to abandon."""
+        return super().busy or self._chosen is not None
+
+    def abandon(self) -> None:
+        """Take back the drag under way; go from the suggestions."""
+        super().abandon()
+        self._chosen = None
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
-        """Paint where a click would place a mark, here and on the other keyframe."""
+        """Paint where a click would place a mark, here and on the other keyframe; and what is
+        pointed at.
+        """
         keyframe, key = pane.keyframe, pane.key
         if keyframe is None or key is None:
             return
         self.paint_key(painter, pane)
         if self._pane is not None and key in self._places:
             self._paint_ghost(painter, pane, keyframe.outline, self._places[key])
+        for known in self.suggestions.waiting:
+            if key in known:
+                self._paint_ghost(painter, pane, keyframe.outline, known[key])
+        shown = self.suggestions.shown
+        for suggestion in (self._suggestion, self._chosen):
+            if suggestion in shown:
+                for _, pins in pane.suggested.ends:
+                    at = pane.view.to_screen(pins.places[shown.index(suggestion)])
+                    draw_ring(painter, at, REACH, colours().selection)
 
     # -- helpers of the mouse ------------------------------------------------------------------
 
-    def _mark_at(self, pointer: Pointer) -> int | None:
+    def _look_at(self, pointer: Pointer) -> None:
+        """Note the mark under the mouse, or else the suggestion."""
+        self._pane, self._mark, self._suggestion = pointer.pane, None, None
         keyframe, view = pointer.pane.keyframe, pointer.pane.view
         if keyframe is None:
-            return None
-        return mark_at(view, pins_on_key(keyframe), view.to_screen(pointer.position), REACH)
+            return
+        pixel = view.to_screen(pointer.position)
+        self._mark = mark_at(view, pins_on_key(keyframe), pixel, REACH)
+        if self._mark is None and self.suggestions.current and not pointer.shift:
+            found = suggestion_at(view, pointer.pane.suggested, pixel, REACH)
+            if found is not None:
+                index, self._suggested_key = found
+                self._suggestion = self.suggestions.shown[index]
 
     def _place_at(self, pointer: Pointer) -> RingPoint | None:
         """Return where a click places a mark: at a corner within reach, or on the edge."""
@@ -194,23 +267,13 @@ class MarksTool(Tool):
         return place if pointer.shift else snap(keyframe.outline, place, pointer.reach)
 
     def _proposed(self, layer: Layer, key: int, place: RingPoint) -> dict[int, RingPoint]:
-        """Return a place with its mate on the other keyframe in view, once that is at hand.
-
-        To match outlines takes too long while the mouse moves; the next move shows what came of it.
-        """
+        """Return a place with its mate on the other keyframe in view, once that is at hand."""
         assert self._pane is not None
         other = key + {Role.SOURCE: 1, Role.TARGET: -1}.get(self._pane.role, 0)
         if other == key or not 0 <= other < len(layer.keyframes):
             return {key: place}
-        here, there = layer.keyframes[key], layer.keyframes[other]
-        pairs = tuple(zip(here.marks, there.marks, strict=True))
-        wanted = here.outline, there.outline, pairs, place.ring
-        if self._matching is None or (self._matching.done() and self._matched != wanted):
-            self._matched = wanted
-            self._matching = self._thread.submit(mate, here.outline, there.outline, place, pairs)
-        if self._matched != wanted or not self._matching.done():
-            return {key: place}
-        return {key: place, other: mate(here.outline, there.outline, place, pairs)}
+        places = self.suggestions.mates({key: place})
+        return {key: place} if places is None else {key: place, other: places[other]}
 
     def _paint_ghost(
         self, painter: QPainter, pane: Pane, outline: Outline, place: RingPoint
@@ -233,10 +296,25 @@ class MarksTool(Tool):
         self._step(-1)
 
     def _step(self, by: int) -> None:
-        layer, mark = self.selection.layer, self.selection.mark
+        """Go on among the marks, and after them the suggestions."""
+        layer = self.selection.layer
         assert layer is not None
-        start = -1 if by > 0 else 0
-        self.selection.select_mark(((start if mark is None else mark) + by) % len(layer.labels))
+        marks, shown = len(layer.labels), self.suggestions.shown
+        at = self.selection.mark
+        if self._chosen in shown:
+            at = marks + shown.index(self._chosen)
+        at = ((-1 if by > 0 else 0) if at is None else at) + by
+        at %= marks + len(shown)
+        self._chosen = shown[at - marks] if at >= marks else None
+        self.selection.select_mark(at if at < marks else None)
+
+    def _accept(self) -> None:
+        """Accept the suggestion that the keys have come to, or else all."""
+        chosen, self._chosen = self._chosen, None
+        if chosen is None:
+            self.suggestions.accept_all()
+        else:
+            self.suggestions.accept(chosen)
 
     def _nudge(self, layer: Layer, mark: int, step: Array) -> None:
         """Move a mark along the outline, the way round that goes with the arrow."""
@@ -251,21 +329,19 @@ class MarksTool(Tool):
         layer, keyframe, mark = self.selection.layer, self.selection.keyframe, self.selection.mark
         assert layer is not None
         assert keyframe is not None
-        taken = {(place.ring, place.at) for place in keyframe.marks}
+        key = self.selection.key
+        waiting = [known[key] for known in self.suggestions.waiting if key in known]
+        taken = {(place.ring, place.at) for place in (*keyframe.marks, *waiting)}
         start = RingPoint(0, 0.0) if mark is None else keyframe.marks[mark]
         count = len(keyframe.outline.rings[start.ring])
         nodes = [(int(start.at) + i) % count for i in range(count)]
         free = (node for node in nodes if (start.ring, float(node)) not in taken)
         node = next(free, None)
         if node is not None:
-            self._add(layer, self.selection.key, RingPoint(start.ring, float(node)))
+            self.suggestions.place({key: RingPoint(start.ring, float(node))})
 
-    def _add(self, layer: Layer, key: int, place: RingPoint) -> None:
-        letter = _next_letter(layer)
-        text = self.tr("Place mark {letter}").format(letter=letter)
-        if self.session.apply(text, composed.place_mark, layer.id, key, place):
-            self._placed = letter
-            self.selection.select_mark(len(layer.labels))
+    def _on_placed(self, letter: str) -> None:
+        self._placed = letter
 
     def _delete(self) -> None:
         layer, mark = self.selection.layer, self.selection.mark
@@ -276,8 +352,16 @@ class MarksTool(Tool):
         self.session.apply(text, edits.remove_marks, layer.id, [mark])
 
 
-def _next_letter(layer: Layer) -> str:
-    return next(label for label in mark_labels() if label not in layer.labels)
+def _moved(layer_id: int, key: int, mark: int, document: Document, place: RingPoint) -> Document:
+    return edits.move_mark(document, layer_id, key, mark, place)
+
+
+def _added(
+    layer_id: int, key: int, suggestion: Suggestion, document: Document, place: RingPoint
+) -> Document:
+    """Add a suggested mark, but on one keyframe at another place."""
+    places = (*suggestion.places[:key], place, *suggestion.places[key + 1 :])
+    return edits.add_mark(document, layer_id, places)
 
 
 def _along(outline: Outline, place: RingPoint, step: Array) -> float:

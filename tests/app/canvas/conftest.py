@@ -51,6 +51,7 @@ def fan(span: Span, progress: Progress) -> SimpleNamespace:
         target=target,
         rings=(ring,),
         at=lambda s: (1 - s) * rest + s * target,
+        report=SimpleNamespace(proposed=()),
     )
 
 
@@ -167,9 +168,9 @@ class Hand:
 
 @pytest.fixture
 def open_canvas(qtbot: QtBot, open_workspace: Callable[..., Workspace]) -> Callable[..., Hand]:
-    """Open a canvas on a document, with spans that are solved in no time."""
+    """Open a canvas on a document, with spans that are solved in no time, and a tool in hand."""
 
-    def open_it(document: Document | None = None, **options: object) -> Hand:
+    def open_it(document: Document | None = None, tool: str = "", **options: object) -> Hand:
         workspace = open_workspace(document, **{"solve": fan, **options})
         canvas = Canvas(workspace)
         qtbot.addWidget(canvas)
@@ -177,6 +178,9 @@ def open_canvas(qtbot: QtBot, open_workspace: Callable[..., Workspace]) -> Calla
         canvas.show()
         canvas.activateWindow()
         qtbot.waitUntil(lambda: not workspace.solver.busy)
+        if tool:
+            canvas.set_tool(tool)
+            qtbot.waitUntil(lambda: tool != "marks" or workspace.suggestions.current)
         return Hand(canvas, workspace)
 
     return open_it

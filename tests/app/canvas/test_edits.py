@@ -9,9 +9,7 @@ from app.canvas.tools.edits import (
     cut_hole,
     delete_nodes,
     draw_key,
-    mates,
     move_nodes,
-    place_mark,
     redraw_key,
     slide_mark,
 )
@@ -72,17 +70,6 @@ def test_marks_of_an_outline_redrawn_elsewhere_keep_their_order(offset, backward
 def test_a_drawn_key_places_every_mark():
     document = draw_key(a_document(target=False), 1, 25, Outline.polygon(LEANING))
     np.testing.assert_allclose(places(document, 1), [LEANING[0], LEANING[2]])
-
-
-def test_a_mark_has_one_place_on_every_key_and_the_clicked_one_is_kept():
-    place = RingPoint(0, 1.25)
-    layer = a_document().layers[0]
-    for key in (0, 1):
-        found = mates(layer, {key: place})
-        assert len(found) == 2
-        assert found[key] == place
-    marked = place_mark(a_document(), 1, 0, place).layers[0]
-    assert marked.labels == ("a", "b", "c")
 
 
 @settings(deadline=None, max_examples=30)

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from app.canvas.marks_overlay import letter_centres
 from app.canvas.moment import Role
 from app.canvas.pins import pins_on_key
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.model.edits import remove_marks
 from core.morph import suggest
 from core.morph.marks.rings import match_rings
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
@@ -24,9 +25,7 @@ SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 @pytest.fixture
 def hand(open_canvas: Callable[..., Hand]) -> Hand:
-    hand = open_canvas(a_document())
-    hand.canvas.set_tool("marks")
-    return hand
+    return open_canvas(a_document(), tool="marks")
 
 
 def place_of(hand: Hand, key: int, mark: int) -> np.ndarray:
@@ -74,17 +73,15 @@ def test_a_click_far_from_the_outline_places_nothing(hand: Hand):
 def test_a_mark_gets_a_mate_on_every_keyframe(open_canvas):
     shapes = (SQUARE, LEANING, SQUARE)
     keys = tuple(Keyframe(f, Outline.polygon(s)) for f, s in zip((1, 9, 25), shapes, strict=True))
-    hand = open_canvas(Document((Layer(1, "Card", keys),)))
+    hand = open_canvas(Document((Layer(1, "Card", keys),)), tool="marks")
     hand.workspace.playhead.move_to(12)
-    hand.canvas.set_tool("marks")
     hand.click(TARGET, SQUARE[2])
     places = [tuple(place_of(hand, key, 0)) for key in range(3)]
     assert places == [SQUARE[2], LEANING[2], SQUARE[2]]
 
 
 def test_a_mark_on_a_single_keyframe_is_allowed(open_canvas):
-    hand = open_canvas(a_document(target=False))
-    hand.canvas.set_tool("marks")
+    hand = open_canvas(a_document(target=False), tool="marks")
     hand.click(SOURCE, SQUARE[1])
     assert tuple(place_of(hand, 0, 2)) == SQUARE[1]
 
@@ -150,14 +147,16 @@ def test_the_hint_says_how_to_correct_a_mate(hand: Hand):
 def test_hovering_changes_nothing_but_the_hint(hand: Hand):
     before, hints = hand.document, []
     hand.canvas.hint_changed.connect(hints.append)
-    hand.move(SOURCE, SQUARE[1])
+    hand.move(SOURCE, (450, 150))
     assert "place mark c" in hints[-1]
     hand.move(SOURCE, SQUARE[0])
     assert "Drag mark a" in hints[-1]
     assert hand.document is before
 
 
-def test_hovering_shows_the_mate_and_never_waits_for_it(hand: Hand, qtbot: QtBot, monkeypatch):
+@pytest.fixture
+def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
+    """Outlines are matched when this is set, and never in the thread of the window."""
     gate, threads = threading.Event(), []
 
     def match(*args):
@@ -167,20 +166,47 @@ def test_hovering_shows_the_mate_and_never_waits_for_it(hand: Hand, qtbot: QtBot
 
     monkeypatch.setattr(suggest, "match_rings", match)
     suggest._match.cache_clear()
+    yield gate
+    gate.set()
+    assert threads
+    assert threading.get_ident() not in threads
+
+
+def test_hovering_shows_the_mate_once_it_is_found(gate, open_canvas, qtbot: QtBot):
+    hand = open_canvas(a_document())
+    hand.canvas.set_tool("marks")
     hints: list[str] = []
     hand.canvas.hint_changed.connect(hints.append)
-    hand.move(SOURCE, SQUARE[1])
+    hand.move(SOURCE, (450, 150))
     assert "place mark c" in hints[-1]
     assert "as shown" not in hints[-1]
     gate.set()
+    qtbot.waitUntil(lambda: "its mate is proposed as shown" in hints[-1])
 
-    def is_shown() -> bool:
-        hand.move(SOURCE, SQUARE[1])
-        return "its mate is proposed as shown" in hints[-1]
 
-    qtbot.waitUntil(is_shown)
-    assert threads
-    assert threading.get_ident() not in threads
+def test_a_mark_clicked_before_its_mate_is_found_is_placed_with_it(gate, open_canvas, qtbot: QtBot):
+    hand = open_canvas(a_document())
+    before = hand.document
+    hand.canvas.set_tool("marks")
+    hand.click(SOURCE, SQUARE[1])
+    hand.click(SOURCE, SQUARE[3])
+    assert "Looking for the mate" in hand.canvas.hint
+    assert hand.document is before
+    gate.set()
+    qtbot.waitUntil(lambda: len(hand.document.layers[0].labels) == 4)
+    assert [tuple(place_of(hand, 1, mark)) for mark in (2, 3)] == [LEANING[1], LEANING[3]]
+    assert hand.steps == ["Place mark c", "Place mark d"]
+
+
+def test_a_mark_that_waits_for_its_mate_is_dropped_by_another_edit(gate, open_canvas, qtbot: QtBot):
+    hand = open_canvas(a_document())
+    hand.canvas.set_tool("marks")
+    hand.click(SOURCE, SQUARE[1])
+    hand.workspace.session.apply("Delete mark a", remove_marks, 1, [0])
+    gate.set()
+    qtbot.waitUntil(lambda: hand.workspace.suggestions.current)
+    assert hand.document.layers[0].labels == ("b",)
+    assert hand.workspace.suggestions.waiting == ()
 
 
 def test_letters_stand_off_the_shape_and_off_its_holes(open_canvas):
@@ -207,10 +233,10 @@ def test_a_locked_layer_refuses_marks(open_canvas):
     assert hand.document.layers[0] is layer
 
 
-def test_insert_places_a_mark_at_the_next_free_corner(hand: Hand):
+def test_insert_places_a_mark_at_the_next_free_corner(hand: Hand, qtbot: QtBot):
     hand.key(SOURCE, Key.Key_Tab)
     hand.key(SOURCE, Key.Key_Insert)
     hand.key(SOURCE, Key.Key_Insert)
-    hand.key(SOURCE, Key.Key_Insert)
+    qtbot.waitUntil(lambda: len(hand.document.layers[0].labels) == 4)
     assert hand.document.layers[0].labels == ("a", "b", "c", "d")
     assert [tuple(place_of(hand, 0, mark)) for mark in (2, 3)] == [SQUARE[1], SQUARE[3]]

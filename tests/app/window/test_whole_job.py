@@ -56,7 +56,7 @@ def test_draw_mark_solve_scrub_export_save_and_open_again(
     press(window, "M")
     for corner in BAR[:2]:
         hand.click(Role.SOURCE, hand.place(Role.SOURCE, corner))
-    assert document().layers[0].labels == ("a", "b")
+    qtbot.waitUntil(lambda: document().layers[0].labels == ("a", "b"))
     qtbot.waitUntil(solved(window))
     qtbot.waitUntil(lambda: "sound" in window.status.badge.text())
 
@@ -105,6 +105,7 @@ def test_undo_back_to_the_start_and_redo_to_the_end_restore_the_identical_docume
     draw(hand, Role.TARGET, UPRIGHT)
     press(window, "M")
     hand.click(Role.SOURCE, hand.place(Role.SOURCE, BAR[0]))
+    qtbot.waitUntil(lambda: session.document.layers[0].labels == ("a",))
     made = versions[:]
     for expected in made[-2::-1]:
         press(window, "Ctrl+Z")

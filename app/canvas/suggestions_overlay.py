@@ -1,0 +1,134 @@
+"""Suggested marks: small hollow diamonds with a number, fainter than any mark that is set."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPolygonF
+
+from app.canvas.ink import HALO, pen
+from app.canvas.marks_overlay import letter_centres
+from app.canvas.overlay import Overlay
+from app.canvas.pins import NO_PINS, Pins
+from app.canvas.view import View
+from app.style import colours
+from core.model.outline import Array
+
+SIZE = 4.5
+"""From the middle of a diamond to its corners, in pixels."""
+STALK = 13.0
+"""From the suggested place to the middle of its number."""
+NUMBER = 6.0
+"""Half the side of the room that a number takes."""
+FAINTEST, CLEAREST = 0.35, 0.85
+"""Opacity at no confidence, and at full confidence."""
+STALE = 0.5
+"""What is left of it while the suggestion is not current."""
+SURE = 0.25
+"""Confidence that is worth a number; along smooth arcs there is less."""
+
+
+@dataclass(frozen=True, eq=False)
+class SuggestedPins:
+    """What is suggested, as far as one pane shows it."""
+
+    ends: tuple[tuple[int, Pins], ...]
+    """The keyframes of the span that are seen here, and the places on each, for k suggestions."""
+    confidence: Array
+    """(k,) in [0, 1]."""
+    current: bool
+
+
+NOTHING = SuggestedPins((), np.empty(0), False)
+
+
+class SuggestionsOverlay(Overlay):
+    """The suggested marks of one pane."""
+
+    def __init__(self, view: View) -> None:
+        super().__init__(view)
+        self._suggested, self._marks = NOTHING, NO_PINS
+
+    def show_suggestions(self, suggested: SuggestedPins, marks: Pins) -> None:
+        """Show suggestions, whose numbers keep clear of the letters of marks."""
+        self._suggested, self._marks = suggested, marks
+        self.update()
+
+    def draw(self, painter: QPainter) -> None:
+        """Paint them, the surest last."""
+        suggested = self._suggested
+        if not suggested.ends:
+            return
+        pins = suggested.ends[0][1]
+        ends = [self.view.to_screen(end.places) for _, end in suggested.ends]
+        numbers = letter_centres(self.view, pins, STALK)
+        legible = self._legible(numbers, ends[0])
+        strength = FAINTEST + (CLEAREST - FAINTEST) * suggested.confidence
+        strength *= 1.0 if suggested.current else STALE
+        for i in np.argsort(suggested.confidence).tolist():
+            painter.setOpacity(strength[i])
+            for mates in ends[1:]:
+                _draw_leader(painter, ends[0][i], mates[i])
+            _draw_diamond(painter, ends[0][i], SIZE)
+            if legible[i]:
+                _draw_number(painter, numbers[i], str(i + 1))
+        painter.setOpacity(1.0)
+
+    def _legible(self, numbers: Array, places: Array) -> list[bool]:
+        """Return which numbers are sure enough, and clear of letters, places and surer numbers."""
+        taken = [*letter_centres(self.view, self._marks), *places]
+        legible = [False] * len(numbers)
+        for i in np.argsort(-self._suggested.confidence, kind="stable").tolist():
+            away = [np.hypot(*(numbers[i] - other)) for other in taken]
+            if self._suggested.confidence[i] >= SURE and min(away, default=np.inf) > 2 * NUMBER:
+                legible[i] = True
+                taken.append(numbers[i])
+        return legible
+
+
+def _draw_diamond(painter: QPainter, at: Array, size: float) -> None:
+    x, y = at
+    corners = QPolygonF(
+        [QPointF(x, y - size), QPointF(x + size, y), QPointF(x, y + size), QPointF(x - size, y)]
+    )
+    painter.setPen(pen(colours().on_mark, 2.8))
+    painter.setBrush(HALO)
+    painter.drawPolygon(corners)
+    painter.setPen(pen(colours().mark, 1.4))
+    painter.drawPolygon(corners)
+
+
+def _draw_leader(painter: QPainter, at: Array, mate: Array) -> None:
+    """Draw a thin line from a suggested mark to its mate."""
+    for colour, width in ((HALO, 2.4), (QColor(colours().on_mark), 0.8)):
+        painter.setPen(pen(colour, width))
+        painter.drawLine(QPointF(*at), QPointF(*mate))
+    _draw_diamond(painter, mate, SIZE - 2)
+
+
+def _draw_number(painter: QPainter, at: Array, text: str) -> None:
+    """Draw a number centred on a pixel (2,), on a halo."""
+    font = painter.font()
+    font.setPixelSize(10)
+    font.setBold(True)
+    painter.setFont(font)
+    box = QRectF(at[0] - 10, at[1] - 10, 20, 20)
+    painter.setPen(HALO)
+    for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+        painter.drawText(box.translated(dx, dy), Qt.AlignmentFlag.AlignCenter, text)
+    painter.setPen(QColor(colours().on_mark))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def suggestion_at(
+    view: View, suggested: SuggestedPins, pixel: Array, reach: float
+) -> tuple[int, int] | None:
+    """Return the suggestion at a pixel (2,) of a view, and the keyframe on which that is."""
+    for key, pins in suggested.ends:
+        away = np.hypot(*(view.to_screen(pins.places) - pixel).T)
+        nearest = int(np.argmin(away))
+        if away[nearest] <= reach:
+            return nearest, key
+    return None
