@@ -1,7 +1,8 @@
 """A mesh of the source, and where its vertices go in the target, without a fold.
 
 The direct route triangulates the source and places the inner vertices by energy. Where that leaves
-folds, a mesh that fits both outlines from the start takes its place, cleaned up at both ends.
+folds, a mesh that fits both outlines from the start takes its place. Around triangles that are poor
+at either end the mesh is then changed until they are fair.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter
+from typing import Self
 
 import numpy as np
 
@@ -19,15 +21,17 @@ from core.geometry.triangulation import Mesh, split_chords, triangulate
 from core.model import Recipe
 from core.model.outline import Array
 from core.morph.compatible.cleanup import coarsen, improve
+from core.morph.compatible.joint import JointMesh
 from core.morph.compatible.overlay import compatible_mesh
+from core.morph.compatible.widening import widen
 from core.morph.placement import place, settle
 from core.morph.quality import distortion
 from core.morph.report import Iteration, Stage
 from core.progress import Watch
 
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
-POOR = 50.0
-"""Distortion of a triangle above which a sound map is cleaned up as well."""
+COSTLY = 1.003
+"""How many times the distortion wider angles may take before the energy is brought down again."""
 
 TURNING = 0.15
 """What half a turn adds to the cost of a map, as a fraction of its distortion."""
@@ -43,13 +47,24 @@ class Map:
     distortion: Array
     """(m,) symmetric Dirichlet density of each triangle; infinite where it is folded."""
     iterations: tuple[Iteration, ...]
-    stages: tuple[Stage, ...]
+    stages: tuple[Stage, ...] = ()
     """What was done, in order."""
+
+    @classmethod
+    def of(cls, mesh: Mesh, target: Array, iterations: tuple[Iteration, ...]) -> Self:
+        """Measure the map that takes a mesh to target positions (n, 2)."""
+        spread = distortion(Elements.of(mesh.points, mesh.triangles), target)
+        return cls(mesh, target, spread, iterations)
+
+    @property
+    def folds(self) -> int:
+        """How many triangles are folded."""
+        return int(np.isinf(self.distortion).sum())
 
     @property
     def sound(self) -> bool:
         """Whether it has no fold."""
-        return bool(np.isfinite(self.distortion).all())
+        return self.folds == 0
 
     @property
     def mean(self) -> float:
@@ -87,30 +102,48 @@ def direct_map(
     mesh = split_chords(coarse)
     log.note("mesh", f"{len(mesh.points) - len(coarse.points)} chords split")
     placed = place(mesh, np.concatenate(target), recipe, watch)
-    spread = _distortion(mesh, placed.target)
-    log.note("placement", _verdict(spread), mesh, spread)
-    return Map(mesh, placed.target, spread, placed.iterations, tuple(log.stages))
+    return log.map("placement", Map.of(mesh, placed.target, placed.iterations))
 
 
 def mended_map(
     direct: Map, source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
 ) -> Map:
-    """Return a map without folds in place of a direct one that has some, or has poor triangles."""
-    if direct.distortion.max() <= POOR:
-        return direct
+    """Return a direct map with what is wrong put right: first folds, then small angles.
+
+    The rings are those it was made of. A map without faults is returned as it is.
+    """
+    sound = direct if direct.sound else _refitted(direct, source, target, recipe, watch)
+    return _widened(sound, recipe, watch)
+
+
+def _refitted(
+    direct: Map, source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
+) -> Map:
+    """Return a map on a mesh that fits both outlines from the start."""
     log = _Log(direct.stages)
-    mesh, image = direct.mesh, direct.target
-    if not direct.sound:
-        mesh, image = coarsen(*compatible_mesh(source, target, watch), watch)
-        log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
-    mesh, image = improve(mesh, image, _max_area(recipe), watch, rounds=1 if direct.sound else 5)
+    mesh, image = coarsen(*compatible_mesh(source, target, watch), watch)
+    log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
+    mesh, image = improve(mesh, image, _max_area(recipe), watch)
     settled = settle(mesh, image, recipe, watch)
-    spread = _distortion(mesh, settled.target)
-    log.note("clean-up", f"{len(mesh.triangles)} triangles, {_verdict(spread)}", mesh, spread)
-    if spread.max() >= direct.distortion.max():
-        return replace(direct, stages=tuple(log.stages))
-    history = direct.iterations + settled.iterations
-    return Map(mesh, settled.target, spread, history, tuple(log.stages))
+    found = Map.of(mesh, settled.target, direct.iterations + settled.iterations)
+    return log.map("clean-up", found, f"{len(mesh.triangles)} triangles")
+
+
+def _widened(found: Map, recipe: Recipe, watch: Watch) -> Map:
+    """Return the map on a mesh with wider angles, hardly more distorted."""
+    before = JointMesh.of(found.mesh, found.target)
+    joint = widen(before, watch)
+    if joint is before:
+        return found
+    log = _Log(found.stages)
+    wide = Map.of(*joint.apart(found.mesh.rings), found.iterations)
+    if wide.mean > COSTLY * found.mean:
+        settled = settle(wide.mesh, wide.target, recipe, watch)
+        joint = widen(JointMesh.of(wide.mesh, settled.target), watch)
+        wide = Map.of(*joint.apart(found.mesh.rings), found.iterations + settled.iterations)
+    change = len(joint.triangles) - len(before.triangles)
+    quality = f"worst quality {before.worse.min():.3f} to {joint.worse.min():.3f}"
+    return log.map("angles", wide, f"{change:+} triangles, {quality}")
 
 
 def _max_area(recipe: Recipe) -> float:
@@ -121,26 +154,21 @@ class _Log:
     """Times the stages."""
 
     def __init__(self, stages: Iterable[Stage] = ()) -> None:
-        self.stages = list(stages)
+        self._stages = list(stages)
         self._since = perf_counter()
 
-    def note(
-        self, name: str, result: str, mesh: Mesh | None = None, spread: Array | None = None
-    ) -> None:
-        """Note what a stage did, with the distortion of the map that it left, if it left one."""
+    def note(self, name: str, result: str) -> None:
+        """Note what a stage did that left no map."""
+        self._stages.append(Stage(name, self._passed(), result))
+
+    def map(self, name: str, found: Map, what: str = "") -> Map:
+        """Note what a stage did, and return the map that it left with all stages."""
+        worst = f"distortion at worst {found.distortion.max():.3g}"
+        verdict = worst if found.sound else f"{found.folds} folds"
+        result = f"{what}, {verdict}" if what else verdict
+        stage = Stage(name, self._passed(), result, found.folds, found.mean)
+        return replace(found, stages=(*self._stages, stage))
+
+    def _passed(self) -> float:
         seconds, self._since = perf_counter() - self._since, perf_counter()
-        if mesh is None or spread is None:
-            self.stages.append(Stage(name, seconds, result))
-            return
-        mean = np.average(spread, weights=Elements.of(mesh.points, mesh.triangles).areas)
-        folds = int(np.isinf(spread).sum())
-        self.stages.append(Stage(name, seconds, result, folds, float(mean)))
-
-
-def _distortion(mesh: Mesh, target: Array) -> Array:
-    return distortion(Elements.of(mesh.points, mesh.triangles), target)
-
-
-def _verdict(spread: Array) -> str:
-    folds = int(np.isinf(spread).sum())
-    return f"{folds} folds" if folds else f"distortion at worst {spread.max():.3g}"
+        return seconds

@@ -20,7 +20,16 @@ from core.morph.motion.motion import Motion
 from core.morph.quality import crosses_itself, folds, smallest_angle
 from tests.benchmarks.pairs import Pair
 
-STAGES = ("outlines", "matching", "mesh", "placement", "joint mesh", "clean-up", "in-between")
+STAGES = (
+    "outlines",
+    "matching",
+    "mesh",
+    "placement",
+    "joint mesh",
+    "clean-up",
+    "angles",
+    "in-between",
+)
 SLOWEST_PLAIN = 1e-6
 """A change of velocity that nobody sees: below it, ratios would compare rounding."""
 

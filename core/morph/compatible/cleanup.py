@@ -21,8 +21,7 @@ from core.morph.compatible.smoothing import smooth
 from core.progress import Watch, unwatched
 
 COARSENINGS = 12
-RELAX_STEPS = 2
-FITTINGS, FIT_STEPS = 2, 4
+ROUNDS, RELAX_STEPS = 3, 2
 POOR = 0.3
 """Around triangles of less quality, any removal that does not harm is welcome."""
 POOREST = 0.2
@@ -52,34 +51,27 @@ def coarsen(mesh: Mesh, target: Array, watch: Watch = unwatched) -> tuple[Mesh, 
         joint = flip(smooth(joint), passes=3)
         if len(joint.points) - joint.boundary_size > 0.98 * inner - 1:
             break
-    return _apart(joint, mesh.rings)
+    return joint.apart(mesh.rings)
 
 
 def improve(
-    mesh: Mesh, target: Array, max_area: float, watch: Watch = unwatched, *, rounds: int
+    mesh: Mesh, target: Array, max_area: float, watch: Watch = unwatched
 ) -> tuple[Mesh, Array]:
     """Return a better mesh of the same boundary, and target positions (n, 2) of its vertices.
 
     Source and target have about unit area. Inside, triangles get about ``max_area``; near short
-    boundary edges they are smaller. One round does for a fair mesh, a coarse one needs five.
-    ``watch(stage)`` is called before every round and may raise ``Cancelled``.
+    boundary edges they are smaller. ``watch(stage)`` is called before every round and may raise
+    ``Cancelled``.
     """
     size = float(np.sqrt(max_area * 4 / np.sqrt(3)))
     joint = JointMesh.of(mesh, target)
-    for _ in range(rounds):
+    for _ in range(ROUNDS):
         watch("clean-up")
         joint = smooth(_refined(_thinned(joint, size), size))
         for _ in range(2):
             joint = smooth(flip(joint, passes=3))
         joint = flip(_relaxed(flip(joint, passes=2), size), passes=3)
-    for _ in range(FITTINGS):
-        watch("clean-up")
-        joint = flip(_fitted(joint), passes=3)
-    return _apart(joint, mesh.rings)
-
-
-def _apart(joint: JointMesh, rings: tuple[Indices, ...]) -> tuple[Mesh, Array]:
-    return Mesh(joint.end(0), joint.triangles, rings), joint.end(1)
+    return joint.apart(mesh.rings)
 
 
 def _thinned(mesh: JointMesh, size: float) -> JointMesh:
@@ -125,26 +117,16 @@ def _wanted_sizes(mesh: JointMesh, size: float) -> Array:
 
 def _relaxed(mesh: JointMesh, size: float) -> JointMesh:
     """Bring the triangles of both ends closer to equilateral ones of the wanted size."""
-    ideal = _equilateral(mesh.triangles, _wanted_sizes(mesh, size))
-    return _newton(mesh, ideal, (0, 1), RELAX_STEPS)
-
-
-def _fitted(mesh: JointMesh) -> JointMesh:
-    """Bring the triangles of the target closer to those of the source."""
-    return _newton(mesh, Elements.of(mesh.end(0), mesh.triangles), (1,), FIT_STEPS)
-
-
-def _newton(mesh: JointMesh, rest: Elements, ends: tuple[int, ...], steps: int) -> JointMesh:
-    """Take Newton steps to less distortion between the rest shapes and the triangles at ends."""
     if len(mesh.points) == mesh.boundary_size or mesh.worse.min() < FLAT:
         return mesh
-    free = FreeVertices(rest, np.arange(mesh.boundary_size, len(mesh.points)))
+    ideal = _equilateral(mesh.triangles, _wanted_sizes(mesh, size))
+    free = FreeVertices(ideal, np.arange(mesh.boundary_size, len(mesh.points)))
     density = SymmetricDirichlet()
     points = mesh.points.copy()
-    for end in ends:
+    for end in (0, 1):
         x = mesh.end(end)
-        for _ in range(steps):
-            x, _ = line_search(rest, density, x, newton_step(free, density, x))
+        for _ in range(RELAX_STEPS):
+            x, _ = line_search(ideal, density, x, newton_step(free, density, x))
         points[:, end] = x[:, 0] + 1j * x[:, 1]
     return mesh.moved(points)
 

@@ -15,6 +15,8 @@ from core.geometry.rotation import Complex
 from core.geometry.triangulation import Indices, Mesh
 from core.model.outline import Array
 
+EDGES = "tail", "head", "apex", "twins", "stars"
+"""What depends on the triangles alone."""
 TINY = 1e-300
 """Keeps the quality of a triangle without any extent 0."""
 
@@ -36,8 +38,12 @@ class JointMesh:
         return cls(points, mesh.triangles, mesh.boundary_size)
 
     def moved(self, points: Complex) -> JointMesh:
-        """Return it with other points."""
-        return JointMesh(points, self.triangles, self.boundary_size)
+        """Return it with other points. What is known of its edges stays known."""
+        other = JointMesh(points, self.triangles, self.boundary_size)
+        other.__dict__.update(
+            (name, self.__dict__[name]) for name in EDGES if name in self.__dict__
+        )
+        return other
 
     def rewired(self, triangles: Indices) -> JointMesh:
         """Return it with other triangles."""
@@ -47,6 +53,10 @@ class JointMesh:
         """Return positions (n, 2) in the source (0) or the target (1)."""
         z = self.points[:, which]
         return np.column_stack([z.real, z.imag])
+
+    def apart(self, rings: tuple[Indices, ...]) -> tuple[Mesh, Array]:
+        """Return the mesh of the source, with its boundary, and the target positions (n, 2)."""
+        return Mesh(self.end(0), self.triangles, rings), self.end(1)
 
     @cached_property
     def quality(self) -> Array:
@@ -105,7 +115,11 @@ def quality(points: Complex, triangles: Indices) -> Array:
     1 for an equilateral triangle, towards 0 for a flat one, negative for a folded one: the area
     over the sum of the squared sides, scaled.
     """
-    a, b, c = (np.take(points, triangles[..., k], axis=0) for k in range(3))
+    return apex_quality(*(np.take(points, triangles[..., k], axis=0) for k in range(3)))
+
+
+def apex_quality(a: Complex, b: Complex, c: Complex) -> Array:
+    """Return ``quality`` (...) of triangles with the corners a, b and c."""
     u, v = b - a, c - a
     product = np.conj(u) * v
     sides = u.real**2 + u.imag**2 + v.real**2 + v.imag**2 - product.real

@@ -10,8 +10,10 @@ import pytest
 from core.errors import Cancelled
 from core.model import Recipe
 from core.model.outline import Array
+from core.morph.compatible.joint import JointMesh
 from core.morph.compatible.overlay import compatible_mesh
-from core.morph.mapping import POOR, Map, direct_map, mended_map
+from core.morph.compatible.widening import FAIR
+from core.morph.mapping import COSTLY, Map, direct_map, mended_map
 from core.morph.quality import folds
 from core.progress import unwatched
 from tests.core.morph.polygons import comb, disc, spiral, square
@@ -52,11 +54,20 @@ def test_the_boundary_goes_exactly_where_it_is_told(name: str) -> None:
         assert np.allclose(mapped.target[:b], target, atol=1e-9)
 
 
-def test_a_good_map_is_left_as_it_is() -> None:
+def test_a_map_without_faults_is_left_as_it_is() -> None:
     ends: tuple[list[Array], list[Array]] = [disc(COUNT)], [square(COUNT)]
     found = direct_map(*ends, RECIPE, unwatched)
-    assert found.distortion.max() <= POOR
+    assert JointMesh.of(found.mesh, found.target).worse.min() >= FAIR
     assert mended_map(found, *ends, RECIPE, unwatched) is found
+
+
+def test_poor_triangles_are_made_fair_for_hardly_more_distortion() -> None:
+    ends = [disc(COUNT)], [disc(COUNT) * [2.2, 1 / 2.2]]
+    found = direct_map(*ends, RECIPE, unwatched)
+    mended = mended_map(found, *ends, RECIPE, unwatched)
+    assert JointMesh.of(found.mesh, found.target).worse.min() < FAIR
+    assert JointMesh.of(mended.mesh, mended.target).worse.min() >= FAIR
+    assert mended.mean < COSTLY * found.mean
 
 
 def test_an_isometry_has_a_mean_distortion_of_one() -> None:

@@ -11,7 +11,7 @@ from shapely import Polygon
 
 from core.errors import Cancelled
 from core.geometry.polyline import resample
-from core.geometry.triangulation import Mesh, split_edges, triangulate, unique_edges
+from core.geometry.triangulation import Mesh, split_edges, unique_edges
 from core.model.outline import Array
 from core.morph.compatible.cleanup import coarsen, improve
 from core.morph.compatible.flips import flip
@@ -32,7 +32,10 @@ def outlines(name: str) -> tuple[list[Array], list[Array]]:
 
 
 def cleaned(source: list[Array], target: list[Array]) -> tuple[Mesh, Array]:
-    return improve(*coarsen(*compatible_mesh(source, target)), AREA, rounds=5)
+    return improve(
+        *coarsen(*compatible_mesh(source, target)),
+        AREA,
+    )
 
 
 def joint(name: str) -> JointMesh:
@@ -95,7 +98,10 @@ def test_a_polygon_and_its_copy_get_an_even_mesh_without_distortion() -> None:
 @pytest.mark.parametrize("name", ["spiral and disc", "comb and square", "spiral and comb"])
 def test_the_clean_mesh_has_wider_angles_than_the_overlay(name: str) -> None:
     mesh, image = compatible_mesh(*outlines(name))
-    clean, clean_image = improve(*coarsen(mesh, image), AREA, rounds=5)
+    clean, clean_image = improve(
+        *coarsen(mesh, image),
+        AREA,
+    )
     before = min(smallest_angle(points, mesh.triangles) for points in (mesh.points, image))
     after = min(smallest_angle(p, clean.triangles) for p in (clean.points, clean_image))
     assert after > max(before, 1e-3)
@@ -110,23 +116,9 @@ def test_coarsening_keeps_the_fit_and_leaves_few_inner_vertices() -> None:
     assert len(coarse.points) - b < 0.5 * (len(mesh.points) - b)
 
 
-def test_one_round_widens_the_angles_of_a_map_that_was_found_otherwise() -> None:
-    source = disc(60)
-    mesh = triangulate([source], AREA)
-    squeeze = np.diag([4, 0.25])
-    better, image = improve(mesh, mesh.points @ squeeze, AREA, rounds=1)
-    before = smallest_angle(mesh.points @ squeeze, mesh.triangles)
-    after = min(smallest_angle(p, better.triangles) for p in (better.points, image))
-    check_fits(better, image, [source], [source @ squeeze])
-    assert after > 1.5 * before
-
-
 def test_a_smaller_area_gives_more_triangles() -> None:
     mesh, image = compatible_mesh([disc(60)], [np.roll(disc(60), 20, axis=0)])
-    counts = [
-        len(improve(mesh, image, area, rounds=3)[0].triangles)
-        for area in (1 / 50, 1 / 200, 1 / 800)
-    ]
+    counts = [len(improve(mesh, image, area)[0].triangles) for area in (1 / 50, 1 / 200, 1 / 800)]
     assert all(few < many for few, many in pairwise(counts))
 
 
@@ -145,7 +137,7 @@ def test_the_clean_up_can_be_cancelled() -> None:
     with pytest.raises(Cancelled):
         coarsen(mesh, image, cancel)
     with pytest.raises(Cancelled):
-        improve(mesh, image, AREA, rounds=1, watch=cancel)
+        improve(mesh, image, AREA, watch=cancel)
 
 
 @pytest.mark.parametrize("name", PAIRS)
