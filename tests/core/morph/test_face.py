@@ -21,9 +21,9 @@ def test_the_documented_attributes_have_the_documented_shapes():
     assert report.folds_source == report.folds_target == ()
     assert report.distortion_worst >= report.distortion_mean >= 1
     stages = [stage.name for stage in report.stages]
-    assert stages == ["outlines", "matching", "mesh", "placement", "in-between"]
-    placement = report.stages[3]
-    assert (placement.folds, placement.distortion) == (0, pytest.approx(report.distortion_mean))
+    assert stages == ["outlines", "matching", "mesh", "placement", "angles", "in-between"]
+    last = report.stages[4]
+    assert (last.folds, last.distortion) == (0, pytest.approx(report.distortion_mean))
     assert report.seconds == pytest.approx(sum(stage.seconds for stage in report.stages))
 
 
