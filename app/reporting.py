@@ -12,7 +12,7 @@ from app.panels.messages import Action, MessageBar
 from app.workspace import Workspace
 from core.errors import FileError, MarkError, MorphError, OutlineError, Where
 from core.model import Layer
-from core.model.edits import remove_marks, transform_outline
+from core.model.edits import remove_marks, replace_outline
 from core.morph.scene import Span, span_of
 
 Key = tuple[int, int]
@@ -134,11 +134,9 @@ class Reporter(QObject):
 
     def _mirror(self, layer_id: int, key: int) -> None:
         """Mirror a keyframe left to right, where it is."""
-        outline = self._workspace.session.document.layer(layer_id).keyframes[key].outline
-        left, _, right, _ = outline.bounds()
-        flip, offset = ((-1.0, 0.0), (0.0, 1.0)), (left + right, 0.0)
-        text = self.tr("Mirror target")
-        self._workspace.session.apply(text, transform_outline, layer_id, key, flip, offset)
+        target = self._workspace.session.document.layer(layer_id).keyframes[key]
+        text, mirrored = self.tr("Mirror target"), target.outline.mirrored()
+        self._workspace.session.apply(text, replace_outline, layer_id, key, mirrored, target.marks)
 
     # -- mending -------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from app.cli.mirrors import MIRROR_NOTE
 from app.cli.terminal import OK, UNSOUND, WRONG, progress_bar
 
 if TYPE_CHECKING:
@@ -30,7 +31,8 @@ examples:
 
 In the JSON report, "folds" and "crossings" are counts frame by frame, "places" says
 where they are in the frames that have any, "end_errors" are fractions of the
-outline's size, "seconds" times.
+outline's size, "mirror" says whether the target matches far better mirrored, "seconds"
+are times.
 """
 
 Entry = dict[str, Any]
@@ -103,7 +105,8 @@ def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
             "mean": _finite(morph.report.distortion_mean),
             "worst": _finite(morph.report.distortion_worst),
         },
-        "repairs": list(morph.report.repairs),
+        "mirror": morph.report.mirror,
+        "repairs": list(map(str, morph.report.repairs)),
         "seconds": {
             "solve": solved,
             "stages": {stage.name: stage.seconds for stage in morph.report.stages},
@@ -133,6 +136,7 @@ def _lines(path: Path, entries: list[Entry], sound: bool) -> list[str]:
             f"  distortion  {_distortion(**entry['distortion'])}",
             f"  time        {1000 * seconds['solve']:.0f} ms to solve ({stages}),"
             f" {1000 * seconds['frame']:.2f} ms a frame",
+            *([f"  note        {MIRROR_NOTE}"] if entry["mirror"] else []),
             *(f"  repaired    {repair}" for repair in entry["repairs"]),
         ]
     return [*lines, f"{path}: {'all frames are sound' if sound else 'NOT SOUND, see above'}."]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -80,19 +81,36 @@ def add_arguments(parser: ArgumentParser) -> None:
         " the artboard (default together)",
     )
 
+    parser.add_argument(
+        "--mirror", action="store_true", help="mirror the target left to right first"
+    )
+
 
 def run(options: Namespace) -> int:
     """Read both outlines and write the project."""
     from core.io import project
 
     source, target = (_part(text) for text in (options.source, options.target))
+    if options.mirror:
+        target = replace(target, outline=target.outline.mirrored())
     document = _document(source, target, options)
     path = options.file
     if path.suffix != project.EXTENSION:
         path = path.with_name(path.name + project.EXTENSION)
     project.save(document, path)
+    if not options.mirror and _better_mirrored(document):
+        complain("Note: the target matches far better mirrored. Use --mirror to mirror it.")
     print(f"{path}: {source.name} becomes {target.name} in {options.frames} frames")
     return OK
+
+
+def _better_mirrored(document: Document) -> bool:
+    from core.errors import MorphError
+    from core.morph.scene import solve_span, span_of
+
+    with suppress(MorphError):  # what cannot be solved is told where it is to be shown
+        return solve_span(span_of(document.layers[0], 0)).report.mirror
+    return False
 
 
 def _part(text: str) -> Part:

@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from app.cli import values
+from app.cli.mirrors import note_mirrors
 from app.cli.terminal import OFFSCREEN_PACKAGES, OK, progress_bar, require_qt
 
 SUMMARY = "write a project's frames as files"
@@ -53,6 +54,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(options: Namespace) -> int:
     """Solve the project and write its frames."""
     from app.jobs.export import Export
+    from app.jobs.solve_all import solve_all
     from app.render.formats import BY_KEY
     from core.io import project
 
@@ -72,7 +74,10 @@ def run(options: Namespace) -> int:
         options.background,
     )
     with progress_bar() as progress:
-        paths = export.run({}, progress)
+        solved = solve_all(document, export.frames, {}, progress)
+    note_mirrors(document, solved)
+    with progress_bar() as progress:
+        paths = export.run(solved, progress)
     several = f" to {paths[-1].name}" if len(paths) > 1 else ""
     print(f"{options.folder}: {paths[0].name}{several}")
     return OK

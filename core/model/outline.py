@@ -178,3 +178,8 @@ class Outline:
     def transformed(self, matrix: ArrayLike, offset: ArrayLike = (0.0, 0.0)) -> Self:
         """Apply x → M x + offset to every ring."""
         return type(self)(tuple(ring.transformed(matrix, offset) for ring in self.rings))
+
+    def mirrored(self) -> Self:
+        """Mirror left to right, in place."""
+        left, _, right, _ = self.bounds()
+        return self.transformed(((-1.0, 0.0), (0.0, 1.0)), (left + right, 0.0))

@@ -142,6 +142,26 @@ def test_marks_count_on_through_the_holes(folder: Path, capsys: pytest.CaptureFi
     assert "no node 8 on the target, which has 8 nodes" in refused([*command, "0:8"], capsys, 1)
 
 
+def test_a_target_that_should_be_mirrored_is_told_by_every_command(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    flag = [(0, 0), (40, 0), (200, 30), (200, 130), (40, 110), (40, 350), (0, 350)]
+    for name, sign in (("flag", 1), ("galf", -1)):
+        rows = "".join(f"{sign * x},{y}\n" for x, y in flag)
+        (folder / f"{name}.csv").write_text(rows)
+    new = ["new", "flag.csv", "galf.csv", "--frames", "3", "-o", "flag.betwixt"]
+    assert cli.run(new) == 0
+    assert "far better mirrored. Use --mirror" in capsys.readouterr().err
+    assert cli.run(["check", "flag.betwixt"]) == 0
+    assert "note        the target matches far better mirrored" in capsys.readouterr().out
+    assert cli.run(["render", "flag.betwixt", "--format", "svg", "-o", "frames"]) == 0
+    assert "flag, frames 1 to 3: the target matches far better" in capsys.readouterr().err
+    assert cli.run([*new, "--mirror"]) == 0
+    assert cli.run(["check", "flag.betwixt"]) == 0
+    said = capsys.readouterr()
+    assert "mirrored" not in said.out + said.err
+
+
 # -- render ------------------------------------------------------------------------------------
 
 
