@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 FLAT = 1e-9
 """A rise too small to be divided by."""
@@ -31,6 +31,12 @@ class Easing:
         if t <= 0 or self.hold:
             return 0.0
         return t if self._even else _cubic(self._parameter(t), self.y1, self.y2)
+
+    def even_at(self, start: bool, end: bool) -> Easing:
+        """Return the easing that begins, ends, or does both at the pace of an even one."""
+        x1, y1 = (1 / 3, 1 / 3) if start else (self.x1, self.y1)
+        x2, y2 = (2 / 3, 2 / 3) if end else (self.x2, self.y2)
+        return replace(self, x1=x1, y1=y1, x2=x2, y2=y2) if start or end else self
 
     def split(self, t: float) -> tuple[Easing, Easing]:
         """Return the timing before and after t ∈ (0, 1), each as an easing of its own.

@@ -79,7 +79,8 @@ def insert_keyframe(
     """Add a keyframe; it must place every mark of the layer. Its frame must be free.
 
     Inside a span it takes over the later part of that span's timing, so that progress stays what it
-    was at every frame. ``turning`` is how the earlier part of the span turns from now on.
+    was at every frame, and the motion passes through it where it does at an end of that span.
+    ``turning`` is how the earlier part of the span turns from now on.
     """
 
     def edit(layer: Layer) -> Layer:
@@ -93,10 +94,11 @@ def insert_keyframe(
         new = keyframe
         span, t = layer.span_at(new.frame)
         if 0 < t < 1:
-            before, after = layer.keyframes[span].easing.split(t)
+            before, after = layer.easing_of(span).split(t)
+            passes = layer.passes(span) or layer.passes(span + 1)
             earlier = turning or layer.keyframes[span].turning
             layer = _with_key(layer, span, easing=before, turning=earlier)
-            new = replace(new, easing=after)
+            new = replace(new, easing=after, passes=passes)
         keyframes = sorted((*layer.keyframes, new), key=lambda key: key.frame)
         return replace(layer, keyframes=tuple(keyframes))
 
@@ -147,6 +149,11 @@ def set_easing(document: Document, layer_id: int, key: int, easing: Easing) -> D
 def set_turning(document: Document, layer_id: int, key: int, turning: Turning) -> Document:
     """Set how the shape turns in the span that begins at a keyframe."""
     return _on_key(document, layer_id, key, turning=turning)
+
+
+def set_passing(document: Document, layer_id: int, key: int, passes: bool) -> Document:
+    """Let the motion pass through a keyframe, or end there and start anew."""
+    return _on_key(document, layer_id, key, passes=passes)
 
 
 # -- nodes -------------------------------------------------------------------------------------

@@ -26,6 +26,8 @@ class Keyframe:
     """One place for each of the layer's marks, in their order."""
     easing: Easing = LINEAR
     turning: Turning = AS_DRAWN
+    passes: bool = False
+    """Whether the motion is to pass through it; see ``Layer.passes``."""
 
 
 @dataclass(frozen=True)
@@ -65,10 +67,28 @@ class Layer:
         t = (frame - frames[index]) / (frames[index + 1] - frames[index])
         return index, min(max(t, 0.0), 1.0)
 
+    def passes(self, key: int) -> bool:
+        """Return whether the motion passes through a keyframe rather than ends and starts anew.
+
+        Shape and time run on: both spans have one velocity there, and neither's easing slows it.
+        That takes a span that moves on either side, and gradients that both can share.
+        """
+        return (
+            0 < key < self.spans
+            and self.keyframes[key].passes
+            and self.recipe.method == "arap"
+            and not any(k.easing.hold for k in self.keyframes[key - 1 : key + 1])
+        )
+
+    def easing_of(self, span: int) -> Easing:
+        """Return the easing of a span, even where the motion passes through its keys."""
+        easing = self.keyframes[span].easing
+        return easing.even_at(self.passes(span), self.passes(span + 1))
+
     def progress_at(self, frame: float) -> tuple[int, float]:
         """Return the span that covers a frame, and s in it: how far its shape has come."""
         index, t = self.span_at(frame)
-        return index, self.keyframes[index].easing(t)
+        return index, self.easing_of(index)(t)
 
     def room(self, key: int) -> tuple[float, float]:
         """Return the least and the greatest frame that a keyframe can have between its neighbours.

@@ -11,6 +11,7 @@ from core.model.outline import Array
 from core.model.turning import Turning
 from core.morph.motion.motion import Motion
 from core.morph.report import Report
+from core.progress import Watch, unwatched
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +51,20 @@ class Morph:
     def along(self, turning: Turning) -> Self:
         """Return the morph that turns and travels as told; all that was solved is shared."""
         return replace(self, inbetween=self.inbetween.along(turning))
+
+    def passing(self, start: Array | None, end: Array | None, watch: Watch = unwatched) -> Self:
+        """Return the morph whose vertices have these velocities (n, 2), per unit s, at its ends.
+
+        At an end that has None the motion is as it was.
+        """
+        ends = self.inside(self.rest), self.inside(self.target)
+        first, last = (None if v is None else v / self.unit for v in (start, end))
+        inbetween = self.inbetween.passing(ends, self.triangles, (first, last), watch)
+        return replace(self, inbetween=inbetween)
+
+    def inside(self, points: Array) -> Array:
+        """Return points (k, 2) in the solver's coordinates."""
+        return (points - self.origin) / self.unit
 
     def at(self, s: float) -> Array:
         """Return positions (n, 2) at progress s: the source at 0, the target at 1, both exactly.

@@ -19,6 +19,16 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
+class Passage:
+    """A key that the motion passes through: what lies beyond it."""
+
+    beyond: Span
+    """The span on the key's other side, by itself."""
+    duration: float
+    """How long that span lasts, in durations of this one."""
+
+
+@dataclass(frozen=True)
 class Span:
     """All that the solution between two neighbouring keyframes depends on; compared by value."""
 
@@ -29,11 +39,14 @@ class Span:
     """The letters of the marks, for messages."""
     recipe: Recipe
     turning: Turning = AS_DRAWN
+    before: Passage | None = None
+    after: Passage | None = None
+    """What the motion passes to and from at its ends; None where it starts or ends there."""
 
     @property
-    def mapped(self) -> Span:
+    def map(self) -> Span:
         """What the map depends on, however the shape moves."""
-        return replace(self, turning=AS_DRAWN)
+        return replace(self, turning=AS_DRAWN, before=None, after=None)
 
 
 @dataclass(frozen=True)
@@ -57,6 +70,19 @@ MorphOf = Callable[[Span], "Morph | None"]
 
 def span_of(layer: Layer, index: int) -> Span:
     """Return what span ``index`` of a layer depends on."""
+    return replace(
+        _by_itself(layer, index),
+        before=_passage(layer, index, index - 1) if layer.passes(index) else None,
+        after=_passage(layer, index, index + 1) if layer.passes(index + 1) else None,
+    )
+
+
+def _passage(layer: Layer, index: int, other: int) -> Passage:
+    lengths = [layer.keyframes[i + 1].frame - layer.keyframes[i].frame for i in (index, other)]
+    return Passage(_by_itself(layer, other), lengths[1] / lengths[0])
+
+
+def _by_itself(layer: Layer, index: int) -> Span:
     source, target = layer.keyframes[index : index + 2]
     pairs = tuple(zip(source.marks, target.marks, strict=True))
     return Span(source.outline, target.outline, pairs, layer.labels, layer.recipe, source.turning)
@@ -65,7 +91,8 @@ def span_of(layer: Layer, index: int) -> Span:
 def timed_span_of(layer: Layer, index: int) -> TimedSpan:
     """Return span ``index`` of a layer and its timing."""
     source, target = layer.keyframes[index : index + 2]
-    return TimedSpan(span_of(layer, index), source.frame, target.frame, source.easing)
+    easing = layer.easing_of(index)
+    return TimedSpan(span_of(layer, index), source.frame, target.frame, easing)
 
 
 def spans_of(document: Document) -> list[Span]:
@@ -77,11 +104,11 @@ def spans_of(document: Document) -> list[Span]:
 def solve_span(span: Span, progress: Progress = silent) -> Morph:
     """Solve one span; the errors and progress are those of ``solve_outlines``.
 
-    Maps are remembered for a while: to turn a shape another way takes no time.
+    Maps are remembered for a while: to move a shape another way takes next to no time.
     """
-    from core.morph.solved import solve_map  # scipy loads with the first solve, not before
+    from core.morph.solved import solve  # scipy loads with the first solve, not before
 
-    return solve_map(span.mapped, progress).along(span.turning)
+    return solve(span, progress)
 
 
 def layer_rings(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[Array, ...]:

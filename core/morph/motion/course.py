@@ -11,6 +11,7 @@ import numpy as np
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.model.turning import AS_DRAWN, Turning
+from core.morph.motion.passing import bumps
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,8 @@ class Course:
     growth: float
     """How many times larger it is at the end: the root of the ratio of the areas."""
     turning: Turning
+    velocities: tuple[complex | None, complex | None] = (None, None)
+    """Of the centre, where the motion passes through an end."""
 
     @classmethod
     def of(
@@ -47,26 +50,50 @@ class Course:
         """Return the course between the same ends with another turning."""
         return replace(self, turning=turning)
 
+    def passing(self, start: complex | None, end: complex | None) -> Self:
+        """Return the course whose centre has these velocities at its ends."""
+        return replace(self, velocities=(start, end))
+
     @property
     def angle(self) -> float:
         """How far the shape turns in all; clockwise is positive where y points down."""
         return self.turning.angle(self.turn)
 
+    @property
+    def spin(self) -> float:
+        """How far whole frames are turned per unit t."""
+        return self.angle - self.turn
+
     def __call__(self, x: Array, t: float) -> Array:
         """Return a frame's positions x (n, 2), wherever they lie, turned and put in place."""
-        spin = t * (self.angle - self.turn)
-        centre = self._centre(t)
-        if spin:
-            c, s = np.cos(spin), np.sin(spin)
+        if self.spin:
+            c, s = np.cos(t * self.spin), np.sin(t * self.spin)
             x = x @ np.array([[c, s], [-s, c]])
+        centre = self._centre(t)
         return x + ([centre.real, centre.imag] - self.mass @ x)
+
+    def own_velocity(self, t: float) -> complex:
+        """Return the centre's velocity at t in a span by itself."""
+        start, end = self.centres
+        if self._rate == 0:
+            return end - start
+        return complex(self._rate * np.exp(t * self._rate) / np.expm1(self._rate)) * (end - start)
+
+    @property
+    def _rate(self) -> complex:
+        """Growth and swing per unit t on the arc, as a complex logarithm; 0 for a straight path."""
+        if self.turning.path == "straight":
+            return 0
+        return complex(log(self.growth), self.turning.swing(self.turn))
 
     def _centre(self, t: float) -> complex:
         start, end = self.centres
-        rate = complex(log(self.growth), self.turning.swing(self.turn))
-        if self.turning.path == "straight" or not rate:
-            return (1 - t) * start + t * end
-        return start + complex(np.expm1(t * rate) / np.expm1(rate)) * (end - start)
+        way = t if self._rate == 0 else complex(np.expm1(t * self._rate) / np.expm1(self._rate))
+        centre = start + way * (end - start)
+        for bump, at, velocity in zip(bumps(t), (0, 1), self.velocities, strict=True):
+            if velocity is not None:
+                centre += bump * (velocity - self.own_velocity(at))
+        return centre
 
 
 def _mass(points: Array, triangles: Indices) -> tuple[Array, float]:

@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Self
 
+import numpy as np
+
+from core.fem.elements import Elements
+from core.geometry.rotation import Complex, turn_and_mirror
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.model.recipe import Method
@@ -12,6 +16,7 @@ from core.model.turning import AS_DRAWN, Turning
 from core.morph.motion.course import Course
 from core.morph.motion.interpolate import Interpolate
 from core.morph.motion.methods import METHODS
+from core.morph.motion.rigid import Rigid
 from core.progress import Watch, unwatched
 
 
@@ -42,7 +47,67 @@ class Motion:
         """Return the motion of the same shape on another course."""
         return self if self.course is None else replace(self, course=self.course.along(turning))
 
+    @property
+    def can_pass(self) -> bool:
+        """Whether it can be given velocities at its ends."""
+        return isinstance(self.shape, Rigid)
+
+    def passing(
+        self,
+        ends: tuple[Array, Array],
+        triangles: Indices,
+        velocities: tuple[Array | None, Array | None],
+        watch: Watch = unwatched,
+    ) -> Self:
+        """Return the motion whose vertices have these velocities (n, 2) at its ends.
+
+        ``ends`` and ``triangles`` are those it was prepared for. None is as in a span by itself.
+        """
+        _, course = self._parts
+        start, end = (
+            None if v is None else _spun(_gradient(v, x, triangles), -course.spin)
+            for v, x in zip(velocities, ends, strict=True)
+        )
+        of_centre = (None if v is None else complex(*(course.mass @ v)) for v in velocities)
+        return replace(
+            self,
+            shape=Rigid(*ends, triangles, watch, (start, end)),
+            course=course.passing(*of_centre),
+        )
+
+    def rate(self, end: int) -> tuple[Complex, complex]:
+        """Return what an end, 0 or 1, has in a span by itself.
+
+        That is the velocity gradient (2, m), as turns and mirrors, and the centre's velocity.
+        """
+        shape, course = self._parts
+        rate = shape.exponent.rate_at_end if end else shape.exponent.rate_at_start
+        return _spun(rate, course.spin), course.own_velocity(end)
+
+    def field(self, rate: Complex, centre: complex) -> Array:
+        """Return velocities (n, 2) at the start: their gradients are closest to rate (2, m)."""
+        shape, course = self._parts
+        v = shape.fit(rate)
+        return v + ([centre.real, centre.imag] - course.mass @ v)
+
+    @property
+    def _parts(self) -> tuple[Rigid, Course]:
+        if not isinstance(self.shape, Rigid) or self.course is None:
+            raise TypeError(f"a motion of a {type(self.shape).__name__} cannot pass through a key")
+        return self.shape, self.course
+
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t."""
         x = self.shape(t)
         return x if self.course is None else self.course(x, t)
+
+
+def _gradient(values: Array, points: Array, triangles: Indices) -> Complex:
+    """Return the gradient of values (n, 2) at points (n, 2), as turns and mirrors (2, m)."""
+    gradients = Elements.of(points, triangles).deformation_gradients(values)
+    return np.stack(turn_and_mirror(gradients))
+
+
+def _spun(rate: Complex, spin: float) -> Complex:
+    """Return a velocity gradient (2, m) with a rotation of the whole added."""
+    return np.stack([rate[0] + 1j * spin, rate[1]])

@@ -13,7 +13,8 @@ from core.model.outline import Array
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import IdealGradients, LinearStretch, LogStretch
 from core.morph.motion.guard import FoldGuard
-from core.morph.motion.sound import SoundFrames
+from core.morph.motion.passing import BY_ITSELF, Exponent, PassingGradients, Rates
+from core.morph.motion.sound import Ideal, SoundFrames
 from core.progress import Watch, unwatched
 
 
@@ -44,13 +45,20 @@ class Rigid:
     """
 
     def __init__(
-        self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
+        self,
+        rest: Array,
+        target: Array,
+        triangles: Indices,
+        watch: Watch = unwatched,
+        rates: Rates = BY_ITSELF,
     ) -> None:
+        """Prepare; ``rates`` are velocity gradients that the ends are to have."""
         before, after = Elements.of(rest, triangles), Elements.of(target, triangles)
         F = before.deformation_gradients(target)
         weights = _symmetric_weights(before, after, F)
-        self.ideal = IdealGradients(F, triangles, before.areas, LogStretch)
-        self.turn = self.ideal.turn
+        even = IdealGradients(F, triangles, before.areas, LogStretch)
+        self.turn, self.exponent = even.turn, Exponent.of(F, even.theta)
+        self.ideal: Ideal = even if rates is BY_ITSELF else PassingGradients(self.exponent, *rates)
         self.fit = GradientFit(before, weights)
         guard = FoldGuard(before, after, weights)
         self._frames = SoundFrames(self.ideal, self.fit, guard, rest, watch)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from core.fem.energies.fold_barrier import REACH
+from core.geometry.rotation import Complex
 from core.model.outline import Array
 from core.morph.motion.fit import GradientFit
-from core.morph.motion.gradients import IdealGradients
 from core.morph.motion.guard import FoldGuard
 from core.progress import Watch
 
@@ -17,11 +19,15 @@ WATCHED = 0.6
 """Between moments with a margin above this, frames are not checked."""
 
 
+Ideal = Callable[[float], Complex]
+"""Ideal gradients at t, as turns and mirrors (2, m)."""
+
+
 class SoundFrames:
     """Frames of a motion without folds, up to where they lie."""
 
     def __init__(
-        self, ideal: IdealGradients, fit: GradientFit, guard: FoldGuard, rest: Array, watch: Watch
+        self, ideal: Ideal, fit: GradientFit, guard: FoldGuard, rest: Array, watch: Watch
     ) -> None:
         """Walk through the motion once: how close frames come to a fold, and a sound frame near
         each moment for the guard to start from.

@@ -63,7 +63,9 @@ def keyframes(draw: st.DrawFn, frame: int, marks: int) -> Keyframe:
         ring = draw(st.integers(0, len(outline.rings) - 1))
         at = draw(st.floats(0, len(outline.rings[ring]), exclude_max=True))
         places.append(RingPoint(ring, at))
-    return Keyframe(frame, outline, tuple(places), draw(EASINGS), draw(TURNINGS))
+    return Keyframe(
+        frame, outline, tuple(places), draw(EASINGS), draw(TURNINGS), draw(st.booleans())
+    )
 
 
 @st.composite

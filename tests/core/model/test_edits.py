@@ -42,6 +42,7 @@ def calls(draw: st.DrawFn, document: Document) -> Call:
     node = (place.ring, int(place.at))
     options: list[Call] = [
         (edits.set_easing, (key, Easing(0.1, 0.2, 0.3, 0.4))),
+        (edits.set_passing, (key, True)),
         (edits.set_turning, (key, Turning("clockwise", 3, "straight"))),
         (edits.move_nodes, (key, place.ring, [node[1]], (3.0, -4.0))),
         (edits.set_handles, (key, node, (1.0, 2.0), (3.0, 4.0))),
@@ -487,3 +488,12 @@ def test_a_key_put_into_a_span_parts_its_turning():
     new = Keyframe(5, TRIANGLE, turning=later)
     after = edits.insert_keyframe(Document((Layer(1, "L", keys),)), 1, new, earlier).layers[0]
     assert [key.turning for key in after.keyframes[:2]] == [earlier, later]
+
+
+def test_a_key_put_into_a_span_is_passed_where_an_end_of_that_span_is():
+    keys = [Keyframe(frame, TRIANGLE, passes=True) for frame in (1, 9, 17, 25)]
+    keys[2] = replace(keys[2], passes=False)
+    document = Document((Layer(1, "L", tuple(keys)),))
+    for frame, passes in ((5, True), (13, True), (20, False)):
+        after = edits.insert_keyframe(document, 1, Keyframe(frame, TRIANGLE)).layers[0]
+        assert after.keyframes[after.key_at(frame)].passes == passes

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import islice
 from math import inf
 
@@ -7,9 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.model import Document, Easing, Keyframe, Layer, Outline
+from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe
+from core.model.easing import HOLD
 from core.model.layer import mark_labels
-from tests.core.model.shapes import layers
+from tests.core.model.shapes import easings, layers
 
 frames = st.floats(-50, 250)
 SQUARE = Outline.polygon([[0, 0], [1, 0], [1, 1], [0, 1]])
@@ -77,3 +79,28 @@ def test_progress_is_time_in_the_span_eased_by_the_key_that_begins_it() -> None:
     assert layer.progress_at(5) == (0, slow(0.5))
     assert layer.progress_at(10) == (1, 0.0)
     assert layer.progress_at(99) == (1, 1.0)
+
+
+def test_only_a_key_between_two_spans_that_move_rigidly_is_passed() -> None:
+    keys = tuple(Keyframe(frame, SQUARE, passes=True) for frame in (1, 5, 9, 20))
+    layer = Layer(1, "L", keys)
+    assert [layer.passes(i) for i in range(4)] == [False, True, True, False]
+    straight = replace(layer, recipe=Recipe(method="linear"))
+    assert not any(straight.passes(i) for i in range(4))
+    held = (keys[0], replace(keys[1], easing=HOLD), *keys[2:])
+    assert not any(replace(layer, keyframes=held).passes(i) for i in range(4))
+
+
+@given(easings(), st.booleans(), st.booleans())
+def test_easing_is_even_where_a_key_is_passed_and_as_chosen_elsewhere(
+    easing: Easing, first: bool, last: bool
+) -> None:
+    easing = replace(easing, hold=False)
+    found = easing.even_at(first, last)
+    for end, even in ((0.0, first), (1.0, last)):
+        if even:
+            assert abs(found(abs(end - 1e-6)) - end) / 1e-6 == pytest.approx(1, abs=1e-3)
+    if not first:
+        assert (found.x1, found.y1) == (easing.x1, easing.y1)
+    if not last:
+        assert (found.x2, found.y2) == (easing.x2, easing.y2)
