@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.artboard import Artboard
@@ -18,8 +17,8 @@ from app.canvas.mesh_overlay import MeshOverlay
 from app.canvas.moment import Moment, Role, edited_key
 from app.canvas.onion import AFTER, BEFORE, OnionSkin
 from app.canvas.overlay import ToolOverlay
-from app.canvas.pins import NO_PINS, pins_at, pins_between, pins_on_key
-from app.canvas.suggestions_overlay import NOTHING, SuggestedPins, SuggestionsOverlay
+from app.canvas.pins import NO_PINS, pins_between, pins_on_key
+from app.canvas.suggestions_overlay import SuggestedPins, SuggestionsOverlay
 from app.canvas.trouble_rings import TroubleRings
 from app.canvas.view import View
 from app.jobs.solver import SpanState
@@ -55,6 +54,8 @@ class Pane(QWidget):
         for z, item in enumerate((self._board, self._onion, self.artwork)):
             self.view.add_artwork(item, z)
         self._mesh = MeshOverlay(self.view, 5)
+        self.suggested = SuggestedPins()
+        """The suggested marks that are seen here: of a key, or in the overlay of both."""
         self._invitation, self.tool_overlay = Invitation(self.view), ToolOverlay(self.view)
         self._suggestions, self._marks = SuggestionsOverlay(self.view), MarksOverlay(self.view)
         self.trouble_rings, self.error_ring = TroubleRings(self.view), ErrorRing(self.view)
@@ -190,28 +191,15 @@ class Pane(QWidget):
         else:
             self._marks.show_marks((), NO_PINS, None)
 
-    @property
-    def suggested(self) -> SuggestedPins:
-        """The suggested marks that are seen here: of a key, or in the overlay of both."""
+    def _show_suggestions(self) -> None:
         suggestions, layer = self._workspace.suggestions, self._workspace.selection.layer
         shown, span = suggestions.shown, suggestions.span
-        if layer is None or not shown or self.role is Role.IN_BETWEEN:
-            return NOTHING
-        keys = {Role.SOURCE: [span], Role.TARGET: [span + 1]}.get(self.role, [span, span + 1])
-        keys.sort(key=lambda key: key != self.key)  # numbers go to the one that is edited
-        outlines = [layer.keyframes[key].outline for key in keys]
-        return SuggestedPins(
-            tuple(
-                (key, pins_at(outline, [suggestion.places[key] for suggestion in shown]))
-                for key, outline in zip(keys, outlines, strict=True)
-            ),
-            np.array([suggestion.confidence for suggestion in shown]),
-            suggestions.current,
-        )
-
-    def _show_suggestions(self) -> None:
-        keyframe = self.keyframe
-        marks = NO_PINS if keyframe is None else pins_on_key(keyframe)
+        self.suggested, marks = SuggestedPins(), NO_PINS
+        if layer is not None and shown and self.role is not Role.IN_BETWEEN:
+            keys = {Role.SOURCE: [span], Role.TARGET: [span + 1]}.get(self.role, [span, span + 1])
+            keys.sort(key=lambda key: key != self.key)  # numbers go to the one that is edited
+            self.suggested = SuggestedPins.on(layer, keys, shown, suggestions.current)
+            marks = pins_on_key(layer.keyframes[keys[0]])
         self._suggestions.show_suggestions(self.suggested, marks)
 
     def _show_error(self, moment: Moment, error: MorphError | None) -> None:

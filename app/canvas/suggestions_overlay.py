@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -11,10 +13,12 @@ from PySide6.QtGui import QColor, QPainter, QPolygonF
 from app.canvas.ink import HALO, pen
 from app.canvas.marks_overlay import letter_centres
 from app.canvas.overlay import Overlay
-from app.canvas.pins import NO_PINS, Pins
+from app.canvas.pins import NO_PINS, Pins, pins_at
 from app.canvas.view import View
 from app.style import colours
+from core.model import Layer
 from core.model.outline import Array
+from core.morph.layer_match import Suggestion
 
 SIZE = 4.5
 """From the middle of a diamond to its corners, in pixels."""
@@ -34,14 +38,21 @@ SURE = 0.25
 class SuggestedPins:
     """What is suggested, as far as one pane shows it."""
 
-    ends: tuple[tuple[int, Pins], ...]
-    """The keyframes of the span that are seen here, and the places on each, for k suggestions."""
-    confidence: Array
-    """(k,) in [0, 1]."""
-    current: bool
+    suggestions: tuple[Suggestion, ...] = ()
+    ends: tuple[tuple[int, Pins], ...] = ()
+    """The keyframes of the span that are seen here, and where the suggestions are on each."""
+    current: bool = False
 
-
-NOTHING = SuggestedPins((), np.empty(0), False)
+    @classmethod
+    def on(
+        cls, layer: Layer, keys: Sequence[int], suggestions: Sequence[Suggestion], current: bool
+    ) -> Self:
+        """Find the places of suggestions on keyframes of a layer."""
+        ends = (
+            (key, pins_at(layer.keyframes[key].outline, [s.places[key] for s in suggestions]))
+            for key in keys
+        )
+        return cls(tuple(suggestions), tuple(ends), current)
 
 
 class SuggestionsOverlay(Overlay):
@@ -49,7 +60,7 @@ class SuggestionsOverlay(Overlay):
 
     def __init__(self, view: View) -> None:
         super().__init__(view)
-        self._suggested, self._marks = NOTHING, NO_PINS
+        self._suggested, self._marks = SuggestedPins(), NO_PINS
 
     def show_suggestions(self, suggested: SuggestedPins, marks: Pins) -> None:
         """Show suggestions, whose numbers keep clear of the letters of marks."""
@@ -64,10 +75,11 @@ class SuggestionsOverlay(Overlay):
         pins = suggested.ends[0][1]
         ends = [self.view.to_screen(end.places) for _, end in suggested.ends]
         numbers = letter_centres(self.view, pins, STALK)
-        legible = self._legible(numbers, ends[0])
-        strength = FAINTEST + (CLEAREST - FAINTEST) * suggested.confidence
+        confidence = np.array([suggestion.confidence for suggestion in suggested.suggestions])
+        legible = self._legible(numbers, ends[0], confidence)
+        strength = FAINTEST + (CLEAREST - FAINTEST) * confidence
         strength *= 1.0 if suggested.current else STALE
-        for i in np.argsort(suggested.confidence).tolist():
+        for i in np.argsort(confidence).tolist():
             painter.setOpacity(strength[i])
             for mates in ends[1:]:
                 _draw_leader(painter, ends[0][i], mates[i])
@@ -76,13 +88,13 @@ class SuggestionsOverlay(Overlay):
                 _draw_number(painter, numbers[i], str(i + 1))
         painter.setOpacity(1.0)
 
-    def _legible(self, numbers: Array, places: Array) -> list[bool]:
+    def _legible(self, numbers: Array, places: Array, confidence: Array) -> list[bool]:
         """Return which numbers are sure enough, and clear of letters, places and surer numbers."""
         taken = [*letter_centres(self.view, self._marks), *places]
         legible = [False] * len(numbers)
-        for i in np.argsort(-self._suggested.confidence, kind="stable").tolist():
+        for i in np.argsort(-confidence, kind="stable").tolist():
             away = [np.hypot(*(numbers[i] - other)) for other in taken]
-            if self._suggested.confidence[i] >= SURE and min(away, default=np.inf) > 2 * NUMBER:
+            if confidence[i] >= SURE and min(away, default=np.inf) > 2 * NUMBER:
                 legible[i] = True
                 taken.append(numbers[i])
         return legible
@@ -124,11 +136,11 @@ def _draw_number(painter: QPainter, at: Array, text: str) -> None:
 
 def suggestion_at(
     view: View, suggested: SuggestedPins, pixel: Array, reach: float
-) -> tuple[int, int] | None:
+) -> tuple[Suggestion, int] | None:
     """Return the suggestion at a pixel (2,) of a view, and the keyframe on which that is."""
     for key, pins in suggested.ends:
         away = np.hypot(*(view.to_screen(pins.places) - pixel).T)
         nearest = int(np.argmin(away))
         if away[nearest] <= reach:
-            return nearest, key
+            return suggested.suggestions[nearest], key
     return None

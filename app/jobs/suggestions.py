@@ -205,6 +205,9 @@ class Suggestions(QObject):
         return _Question(layer.id, layer.keyframes, span, self._proposed(layer, span))
 
     def _proposed(self, layer: Layer, span: int) -> Proposed | None:
+        key = layer.keyframes[span]
+        if {mark.ring for mark in key.marks} == set(range(len(key.outline.rings))):
+            return ()  # where marks decide, there is nothing to wait for
         state = self._solver.state(layer.id, span)
         if state is not SpanState.SOLVED:
             return None if state is SpanState.SOLVING else ()

@@ -170,10 +170,9 @@ class MarksTool(Tool):
         layer = self.selection.layer
         if layer is None:
             return self.tr("Marks go on outlines: press P or B and draw one first")
-        letter, number, count = layer.next_label, 0, len(self.suggestions.shown)
+        letter, shown = layer.next_label, self.suggestions.shown
         pointed = self._suggestion or self._chosen
-        if pointed in self.suggestions.shown:
-            number = self.suggestions.shown.index(pointed) + 1
+        number = shown.index(pointed) + 1 if pointed in shown else 0
         if self._mark is not None and self._mark < len(layer.labels):
             letter = layer.labels[self._mark]
             text = self.tr("Drag mark {letter} along the outline; Del deletes it")
@@ -195,14 +194,13 @@ class MarksTool(Tool):
             text = self.tr("Click to place mark {letter}; its mate is proposed too")
         elif self._pane is not None and self._pane.key is None:
             text = self.tr("Marks go on the source or the target outline, not in between")
-        elif count and self.suggestions.current:
-            text = self.tr(
-                "Click a corner to place mark {letter}, or a suggestion to accept it;"
-                " Enter accepts all {count}, Esc hides them"
-            )
+        elif shown and self.suggestions.current:
+            text = self.tr("Click a corner to place mark {letter}, or a suggestion · Enter: all")
+            if self.workspace.view.suggestions == "with the tool":
+                text += self.tr(" · Esc: hide")
         else:
             text = self.tr("Click a corner of the outline to place mark {letter}")
-        return text.format(letter=letter, number=number, count=count)
+        return text.format(letter=letter, number=number)
 
     @property
     def seen(self) -> object:
@@ -233,10 +231,10 @@ class MarksTool(Tool):
         for known in self.suggestions.waiting:
             if key in known:
                 self._paint_ghost(painter, pane, keyframe.outline, known[key])
-        shown = self.suggestions.shown
+        shown, ends = pane.suggested.suggestions, pane.suggested.ends
         for suggestion in (self._suggestion, self._chosen):
             if suggestion in shown:
-                for _, pins in pane.suggested.ends:
+                for _, pins in ends:
                     at = pane.view.to_screen(pins.places[shown.index(suggestion)])
                     draw_ring(painter, at, REACH, colours().selection)
 
@@ -252,9 +250,8 @@ class MarksTool(Tool):
         self._mark = mark_at(view, pins_on_key(keyframe), pixel, REACH)
         if self._mark is None and self.suggestions.current and not pointer.shift:
             found = suggestion_at(view, pointer.pane.suggested, pixel, REACH)
-            if found is not None:
-                index, self._suggested_key = found
-                self._suggestion = self.suggestions.shown[index]
+            if found is not None and found[0] in self.suggestions.shown:
+                self._suggestion, self._suggested_key = found
 
     def _place_at(self, pointer: Pointer) -> RingPoint | None:
         """Return where a click places a mark: at a corner within reach, or on the edge."""
