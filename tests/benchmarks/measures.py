@@ -1,4 +1,4 @@
-"""What a sweep measures of one pair: its map, its frames, and straight paths beside them.
+"""What a sweep measures of one pair: its map, its frames, and other motions beside them.
 
 Lengths are in units of √(source area), and one span lasts one unit of time.
 """
@@ -10,26 +10,21 @@ from dataclasses import dataclass, fields
 from time import perf_counter
 
 import numpy as np
-from scipy.spatial import cKDTree
-from shapely import LinearRing, distance
-from shapely import points as shapely_points
+import shapely
 
 import core
-from core.geometry.polyline import signed_area
+from core.model import Recipe
+from core.model.recipe import Method
 from core.morph.motion.motion import Motion
-from core.morph.quality import crosses_itself, folds, smallest_angle
-from tests.benchmarks.pairs import Pair
+from core.morph.pipeline import solve_outlines
+from core.morph.quality import folds, smallest_angle
+from tests.benchmarks.drift import Drift
+from tests.benchmarks.given_marks import GivenMarks
+from tests.benchmarks.pairs import Pair, Rings
 
-STAGES = (
-    "outlines",
-    "matching",
-    "mesh",
-    "placement",
-    "joint mesh",
-    "clean-up",
-    "angles",
-    "in-between",
-)
+OWN = "as rigid as possible"
+BESIDE: dict[str, Method] = {"straight paths": "linear", "lengths and angles": "intrinsic"}
+"""Motions to compare with, on the same mesh."""
 SLOWEST_PLAIN = 1e-6
 """A change of velocity that nobody sees: below it, ratios would compare rounding."""
 
@@ -51,28 +46,34 @@ class Row:
     angle_source: float
     """The smallest, in degrees."""
     angle_target: float
+    repairs: int
+    """Changes to the outlines so that they could be used; without any, ends are exact."""
     tried: int
+    mirror: bool
+    """Whether a mirrored target was offered."""
     route: str
     ms: float
     """From outlines to finished morph."""
-    ms_stages: tuple[float, ...]
-    """The taken correspondence's share of them, by ``STAGES``."""
     ms_frame: float
     """Median of all frames."""
     ms_frame_worst: float
     frames: int
     folded_frames: int
-    crossing: tuple[float, ...]
-    """Moments at which the boundary crosses itself."""
-    area_drift: float
-    """Largest relative deviation of a frame's area from a steady change."""
+    folded_frames_linear: int
     jolt: float
     """Largest change of a vertex's velocity between neighbouring frames."""
     jolt_plain: float
     """The same for the paper's plain form on the same mesh."""
-    linear_folded_frames: int
-    linear_crossing_frames: int
-    linear_area_drift: float
+    stages: dict[str, float]
+    """The milliseconds of each stage; of the correspondence that was taken."""
+    drifts: dict[str, Drift]
+    """Our motion and the others, by name."""
+    given: GivenMarks | None = None
+
+    @property
+    def crossing(self) -> tuple[float, ...]:
+        """Moments at which our boundary crosses itself."""
+        return self.drifts[OWN].crossing
 
     @property
     def jolt_ratio(self) -> float:
@@ -81,84 +82,92 @@ class Row:
 
     def record(self) -> dict[str, object]:
         """Return the row as columns of plain values."""
-        columns = {field.name: getattr(self, field.name) for field in fields(self)}
-        del columns["ms_stages"]
-        for stage, ms in zip(STAGES, self.ms_stages, strict=True):
-            columns["ms_" + stage.replace(" ", "_")] = ms
-        columns["crossing_frames"] = len(self.crossing)
-        columns["crossing"] = " ".join(f"{t:.3f}" for t in self.crossing)
+        nested = ("stages", "drifts", "given")
+        columns = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in nested}
         columns["jolt_ratio"] = self.jolt_ratio
-        return columns
+        for name, drift in self.drifts.items():
+            columns |= {f"{name}: {figure}": value for figure, value in drift.record().items()}
+        if self.given is not None:
+            columns |= self.given.record()
+        return columns | {f"ms {stage}": ms for stage, ms in self.stages.items()}
 
 
-def measure(pair: Pair, frames: int) -> tuple[Row, core.Morph]:
+def measure(pair: Pair, frames: int, recipe: Recipe | None = None) -> tuple[Row, core.Morph]:
     """Solve a pair without marks and measure it; raises ``MorphError`` where it is refused."""
     start = perf_counter()
-    morph = core.solve(pair.source, pair.target)
+    morph = solve_outlines(pair.source, pair.target, recipe=recipe)
     seconds = perf_counter() - start
     report = morph.report
-    milliseconds = {stage.name: 1e3 * stage.seconds for stage in report.stages}
-    rest, target = ((end - morph.origin) / morph.unit for end in (morph.rest, morph.target))
     times = np.linspace(0, 1, frames)
     motion, frame_seconds = _timed_motion(morph.at, times)
-    straight, plain = (
-        _motion(Motion.of(method, (rest, target), morph.triangles), times)
-        for method in ("linear", "plain arap")
-    )
-    return (
-        Row(
-            pair=pair.name,
-            triangles=report.triangles,
-            folds_source=len(report.folds_source),
-            folds_target=len(report.folds_target),
-            end_error=max(
-                end_error(pair.source, motion[0], morph.rings),
-                end_error(pair.target, motion[-1], morph.rings),
-            ),
-            end_jump=max(
-                float(np.abs(morph.inbetween(s) - end).max() / np.ptp(end, axis=0).max())
-                for s, end in ((0.0, rest), (1.0, target))
-            ),
-            distortion_mean=report.distortion_mean,
-            distortion_worst=report.distortion_worst,
-            angle_source=np.degrees(smallest_angle(motion[0], morph.triangles)),
-            angle_target=np.degrees(smallest_angle(motion[-1], morph.triangles)),
-            tried=report.tried,
-            route=" + ".join(stage.name for stage in report.stages),
-            ms=1e3 * seconds,
-            ms_stages=tuple(milliseconds.get(stage, 0.0) for stage in STAGES),
-            ms_frame=1e3 * float(np.median(frame_seconds)),
-            ms_frame_worst=1e3 * max(frame_seconds),
-            frames=frames,
-            folded_frames=_folded(motion, morph),
-            crossing=tuple(times[_crossing(motion, morph)].tolist()),
-            area_drift=area_drift(motion, times, morph.rings),
-            jolt=jolt(motion / morph.unit, times),
-            jolt_plain=jolt(plain, times),
-            linear_folded_frames=_folded(straight, morph),
-            linear_crossing_frames=len(_crossing(straight, morph)),
-            linear_area_drift=area_drift(straight, times, morph.rings),
+    rest, target = (end - morph.origin for end in (morph.rest, morph.target))
+    others = {
+        name: np.stack([frame(t) for t in times])
+        for name, method in (BESIDE | {"plain": "plain arap"}).items()
+        for frame in [Motion.of(method, (rest, target), morph.triangles)]
+    }
+    plain = others.pop("plain")
+    drawn = pair.drawn
+    row = Row(
+        pair=pair.name,
+        triangles=report.triangles,
+        folds_source=len(report.folds_source),
+        folds_target=len(report.folds_target),
+        end_error=max(
+            end_error(rings, outline(motion[k], morph))
+            for k, rings in ((0, drawn[0]), (-1, drawn[1]))
         ),
-        morph,
+        end_jump=end_jump(morph),
+        distortion_mean=report.distortion_mean,
+        distortion_worst=report.distortion_worst,
+        angle_source=np.degrees(smallest_angle(motion[0], morph.triangles)),
+        angle_target=np.degrees(smallest_angle(motion[-1], morph.triangles)),
+        repairs=len(report.repairs),
+        tried=report.tried,
+        mirror=report.mirror,
+        route=" + ".join(stage.name for stage in report.stages),
+        ms=1e3 * seconds,
+        ms_frame=1e3 * float(np.median(frame_seconds)),
+        ms_frame_worst=1e3 * max(frame_seconds),
+        frames=frames,
+        folded_frames=_folded(motion, morph),
+        folded_frames_linear=_folded(others["straight paths"], morph),
+        jolt=jolt(motion / morph.unit, times),
+        jolt_plain=jolt(plain / morph.unit, times),
+        stages={stage.name: 1e3 * stage.seconds for stage in report.stages},
+        drifts={
+            name: Drift.of([outline(frame, morph) for frame in positions], times)
+            for name, positions in ({OWN: motion} | others).items()
+        },
     )
+    return row, morph
 
 
-def end_error(drawn: np.ndarray, positions: np.ndarray, rings: Sequence[np.ndarray]) -> float:
-    """Return how far an end is from the polygon (n, 2) that was drawn, relative to its size.
+def outline(positions: np.ndarray, morph: core.Morph) -> Rings:
+    """Return the boundary of mesh positions (n, 2)."""
+    return [positions[ring] for ring in morph.rings]
 
-    The larger of: a drawn vertex to the nearest boundary vertex; a boundary vertex to the polygon.
+
+def end_error(drawn: Rings, found: Rings) -> float:
+    """Return how far an end is from the rings that were drawn, relative to their size.
+
+    The larger of: a drawn vertex to the nearest boundary vertex; a boundary vertex to what was
+    drawn.
     """
-    boundary = positions[np.concatenate(rings)]
-    missed, _ = cKDTree(boundary).query(drawn)
-    astray = distance(LinearRing(drawn), shapely_points(boundary))
-    return float(max(missed.max(), astray.max()) / np.ptp(drawn, axis=0).max())
+    corners, boundary = (shapely.points(np.concatenate(rings)) for rings in (drawn, found))
+    lines = shapely.multilinestrings([shapely.linearrings(ring) for ring in drawn])
+    missed = shapely.distance(corners, shapely.multipoints(boundary))
+    astray = shapely.distance(boundary, lines)
+    return float(max(missed.max(), astray.max()) / np.ptp(drawn[0], axis=0).max())
 
 
-def area_drift(motion: np.ndarray, times: np.ndarray, rings: Sequence[np.ndarray]) -> float:
-    """Return the largest relative deviation of the area from a steady change between the ends."""
-    areas = np.array([sum(signed_area(frame[ring]) for ring in rings) for frame in motion])
-    steady = (1 - times) * areas[0] + times * areas[-1]
-    return float(np.abs(areas / steady - 1).max())
+def end_jump(morph: core.Morph) -> float:
+    """Return how far the motion's limits are from what is shown at its ends."""
+    jumps = []
+    for s, end in ((0.0, morph.rest), (1.0, morph.target)):
+        limit = morph.origin + morph.unit * morph.inbetween(s)
+        jumps.append(np.abs(limit - end).max() / np.ptp(end, axis=0).max())
+    return float(max(jumps))
 
 
 def jolt(motion: np.ndarray, times: np.ndarray) -> float:
@@ -167,29 +176,16 @@ def jolt(motion: np.ndarray, times: np.ndarray) -> float:
     return float(np.linalg.norm(np.diff(velocity, axis=0), axis=2).max())
 
 
-def _motion(frame: Callable[[float], np.ndarray], times: np.ndarray) -> np.ndarray:
-    return np.stack([frame(t) for t in times])
-
-
 def _timed_motion(
-    frame: Callable[[float], np.ndarray], times: np.ndarray
+    frame: Callable[[float], np.ndarray], times: Sequence[float]
 ) -> tuple[np.ndarray, list[float]]:
-    seconds = []
-
-    def timed(t: float) -> np.ndarray:
+    positions, seconds = [], []
+    for t in times:
         start = perf_counter()
-        positions = frame(t)
+        positions.append(frame(t))
         seconds.append(perf_counter() - start)
-        return positions
-
-    return _motion(timed, times), seconds
+    return np.stack(positions), seconds
 
 
 def _folded(motion: np.ndarray, morph: core.Morph) -> int:
     return sum(len(folds(frame, morph.triangles)) > 0 for frame in motion)
-
-
-def _crossing(motion: np.ndarray, morph: core.Morph) -> list[int]:
-    return [
-        k for k, frame in enumerate(motion) if crosses_itself([frame[ring] for ring in morph.rings])
-    ]

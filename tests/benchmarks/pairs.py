@@ -12,32 +12,49 @@ from pathlib import Path
 
 import numpy as np
 
-OUTLINES = Path(__file__).parents[3] / "shared" / "data" / "mpeg7_outlines.npz"
+from core.geometry.flatten import flatten
+from core.model import Outline
+
+SHARED = Path(__file__).parents[3] / "shared" / "data"
+OUTLINES = SHARED / "mpeg7_outlines.npz"
 SEED = 2013
+
+Rings = list[np.ndarray]
+"""Closed polylines (k, 2), the exterior first."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """A source and a target, (n, 2) and (k, 2)."""
+    """A source and a target."""
 
     name: str
-    source: np.ndarray
-    target: np.ndarray
+    source: Outline
+    target: Outline
+
+    @property
+    def drawn(self) -> tuple[Rings, Rings]:
+        """Both outlines as rings of points."""
+        return rings_of(self.source), rings_of(self.target)
 
 
-def load_outlines(path: Path = OUTLINES) -> dict[str, np.ndarray]:
-    """Return the outlines (n, 2) by name, such as ``camel-03``, in order."""
+def rings_of(outline: Outline) -> Rings:
+    """Return an outline as the solver follows it."""
+    return [line.points for line in flatten(outline)]
+
+
+def load_outlines(path: Path = OUTLINES) -> dict[str, Outline]:
+    """Return the outlines by name, such as ``camel-03``, in order."""
     with np.load(path) as file:
-        return {name: file[name].astype(float) for name in sorted(file.files)}
+        return {name: Outline.polygon(file[name].astype(float)) for name in sorted(file.files)}
 
 
-def within_classes(outlines: Mapping[str, np.ndarray]) -> list[Pair]:
+def within_classes(outlines: Mapping[str, Outline]) -> list[Pair]:
     """Pair instance 2k of each class with instance 2k + 1, where both are there."""
     mates = ((name, f"{kind(name)}-{instance(name) + 1:02}") for name in outlines)
     return [_pair(outlines, a, b) for a, b in mates if instance(a) % 2 == 0 and b in outlines]
 
 
-def across_classes(outlines: Mapping[str, np.ndarray], count: int, seed: int = SEED) -> list[Pair]:
+def across_classes(outlines: Mapping[str, Outline], count: int, seed: int = SEED) -> list[Pair]:
     """Draw pairs of two classes at random; equal seeds give equal pairs."""
     random = np.random.default_rng(seed)
     classes = [list(names) for _, names in groupby(sorted(outlines), kind)]
@@ -58,5 +75,5 @@ def instance(name: str) -> int:
     return int(name.rpartition("-")[2])
 
 
-def _pair(outlines: Mapping[str, np.ndarray], a: str, b: str) -> Pair:
+def _pair(outlines: Mapping[str, Outline], a: str, b: str) -> Pair:
     return Pair(f"{a} → {b}", outlines[a], outlines[b])

@@ -16,7 +16,7 @@ from time import perf_counter
 import numpy as np
 
 import core
-from core.geometry.rotation import rotate
+from core.geometry.rotation import phasor
 from core.morph.motion.rigid import Rigid
 from tests.core.shapes import limb
 
@@ -52,14 +52,14 @@ def measure(density: int, repeats: int) -> tuple[core.Morph, dict[str, float], d
 
 def frame_parts(morph: core.Morph, repeats: int) -> dict[str, float]:
     """Return ms of a frame: its ideal gradients, its load, the bare back-substitution, and all."""
-    frame = morph.inbetween
+    frame = morph.inbetween.shape
     assert isinstance(frame, Rigid)
     ideal = frame.ideal(0.37)
     load = frame.fit.load(ideal)
     moments = cycle(np.linspace(0.1, 0.9, 101))  # the last frame asked for is remembered
     return {
         "ideal gradients": milliseconds(lambda: frame.ideal(0.37), repeats),
-        "  of that, turning": milliseconds(lambda: rotate(frame.ideal.theta, ideal), repeats),
+        "  of that, turning": milliseconds(lambda: phasor(0.37 * frame.ideal.theta), repeats),
         "load": milliseconds(lambda: frame.fit.load(ideal), repeats),
         "back-substitution": milliseconds(lambda: frame.fit.solve(load), repeats),
         "frame": milliseconds(lambda: morph.at(next(moments)), repeats),

@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from tests.benchmarks.measures import STAGES, Row
+from tests.benchmarks.measures import Row
+from tests.benchmarks.survey import Refused
+from tests.benchmarks.worst import complaints, worst
 
-WORST = 20
-EXACT = 1e-9
-ABRUPT = 3.0
+EXACT, ABRUPT = 1e-9, 3.0
 
 Quantity = Callable[[Row], float]
 
@@ -22,13 +22,8 @@ LARGE: dict[str, Quantity] = {
     "SD mean": lambda row: row.distortion_mean,
     "SD worst triangle": lambda row: row.distortion_worst,
     "correspondences tried": lambda row: row.tried,
-    "area drift": lambda row: row.area_drift,
-    "  of straight paths": lambda row: row.linear_area_drift,
     "change of velocity": lambda row: row.jolt,
     "  over plain ARAP's": lambda row: row.jolt_ratio,
-    "ms a frame": lambda row: row.ms_frame,
-    "ms of the worst frame": lambda row: row.ms_frame_worst,
-    "ms to the morph": lambda row: row.ms,
 }
 """Quantities that are better the smaller they are."""
 SMALL: dict[str, Quantity] = {
@@ -36,32 +31,46 @@ SMALL: dict[str, Quantity] = {
     "smallest angle, target": lambda row: row.angle_target,
 }
 """Quantities that are better the larger they are."""
+MILLISECONDS: dict[str, Quantity] = {
+    "ms to the morph": lambda row: row.ms,
+    "ms a frame": lambda row: row.ms_frame,
+    "ms of the worst frame": lambda row: row.ms_frame_worst,
+}
+GIVEN: dict[str, Quantity] = {
+    "marks given": lambda row: row.given.marks,
+    "  SD mean": lambda row: row.given.distortion_mean,
+    "  ms to the morph": lambda row: row.given.ms,
+    "  ms, one mark moved": lambda row: row.given.ms_moved,
+}
 
 
-def badness(row: Row) -> tuple[int, float]:
-    """Return the key by which pairs are ordered, the worst last: folds, then distortion."""
-    return row.folds_source + row.folds_target + row.folded_frames, row.distortion_mean
-
-
-def summary(rows: Sequence[Row], refused: Sequence[tuple[str, str]]) -> str:
+def summary(rows: Sequence[Row], refused: Sequence[Refused], *, timed: bool = True) -> str:
     """Return the report on measured rows and on pairs that were refused, with the reason."""
     lines = [f"{len(rows) + len(refused)} pairs, {len(refused)} refused"]
-    lines += [f"  {pair}: {reason}" for pair, reason in refused]
+    lines += [f"  {each.pair}: {each.reason}" for each in refused]
     if rows:
-        lines += ["", *_quantities(rows), "", *_counts(rows), "", *_routes(rows)]
-        lines += ["", *_crossings(rows), *_worst(rows)]
+        lines += ["", *_quantities(rows, timed=timed), "", *_counts(rows), "", *_motions(rows)]
+        lines += ["", *_routes(rows), "", *_crossings(rows), *_worst(rows)]
     return "\n".join(lines) + "\n"
 
 
-def _quantities(rows: Sequence[Row]) -> Iterator[str]:
+def _quantities(rows: Sequence[Row], *, timed: bool) -> Iterator[str]:
+    given = [row for row in rows if row.given is not None]
     yield f"{'':<26}{'median':>12}{'95 %':>12}{'max':>12}  worst pair"
     for name, quantity in LARGE.items():
         yield _line(name, rows, quantity, 95, np.argmax)
-    for k, stage in enumerate(STAGES):
-        yield _line(f"  {stage}", rows, lambda row, k=k: row.ms_stages[k], 95, np.argmax)
+    for name, quantity in (MILLISECONDS | _stages(rows)).items() if timed else ():
+        yield _line(name, rows, quantity, 95, np.argmax)
+    for name, quantity in GIVEN.items() if timed and given else ():
+        yield _line(name, given, quantity, 95, np.argmax)
     yield f"{'':<26}{'median':>12}{'5 %':>12}{'min':>12}"
     for name, quantity in SMALL.items():
         yield _line(name, rows, quantity, 5, np.argmin)
+
+
+def _stages(rows: Sequence[Row]) -> dict[str, Quantity]:
+    stages = dict.fromkeys(stage for row in rows for stage in row.stages)
+    return {f"  {name}": lambda row, name=name: row.stages.get(name, 0.0) for name in stages}
 
 
 def _line(
@@ -80,18 +89,37 @@ def _line(
 def _counts(rows: Sequence[Row]) -> Iterator[str]:
     frames = sum(row.frames for row in rows)
     yield _count("pairs with a fold at an end", (_folds(row) for row in rows))
-    yield _count("pairs with an end off by over 1e-9", (row.end_error > EXACT for row in rows))
+    yield _count("pairs whose outlines were repaired", (row.repairs for row in rows))
+    inexact = (row.end_error > EXACT for row in rows if not row.repairs)
+    yield _count("  others with an end off by over 1e-9", inexact)
     yield _count("pairs with a fold in a frame", (row.folded_frames for row in rows))
     yield _count("pairs with a crossing frame", (len(row.crossing) for row in rows))
     yield _count("pairs over 3 x plain's jolt", (row.jolt_ratio > ABRUPT for row in rows))
-    yield f"of {frames} frames, ends included:"
+    yield _count("pairs whose mirror was offered", (row.mirror for row in rows))
     for name, count in {
-        "folded": sum(row.folded_frames for row in rows),
-        "crossing": sum(len(row.crossing) for row in rows),
-        "folded on straight paths": sum(row.linear_folded_frames for row in rows),
-        "crossing on straight paths": sum(row.linear_crossing_frames for row in rows),
+        "folded frames": sum(row.folded_frames for row in rows),
+        "  on straight paths": sum(row.folded_frames_linear for row in rows),
     }.items():
-        yield f"  {name:<34}{count:6} ({count / frames:.2%})"
+        yield f"{name:<38}{count:6} of {frames} ({count / frames:.2%})"
+
+
+def _motions(rows: Sequence[Row]) -> Iterator[str]:
+    """Compare the motions, one line each."""
+    yield (
+        f"{'':<22}{'pairs':>7}{'crossing frames':>24}{'in pairs':>10}"
+        f"{'area drift':>14}{'95 %':>8}{'perimeter':>12}{'95 %':>8}"
+    )
+    for name in dict.fromkeys(name for row in rows for name in row.drifts):
+        having = [row for row in rows if name in row.drifts]
+        drifts = [row.drifts[name] for row in having]
+        frames, crossing = sum(row.frames for row in having), [len(d.crossing) for d in drifts]
+        share = f"{sum(crossing)} of {frames} = {sum(crossing) / frames:.2%}"
+        area = np.percentile([d.area for d in drifts], [50, 95])
+        perimeter = np.percentile([d.perimeter for d in drifts], [50, 95])
+        yield (
+            f"{name:<22}{len(having):7}{share:>24}{sum(map(bool, crossing)):10}"
+            f"{area[0]:14.1%}{area[1]:8.1%}{perimeter[0]:12.1%}{perimeter[1]:8.1%}"
+        )
 
 
 def _folds(row: Row) -> int:
@@ -99,7 +127,7 @@ def _folds(row: Row) -> int:
 
 
 def _count(name: str, hits: Iterable[float]) -> str:
-    return f"{name:<36}{sum(map(bool, hits)):6}"
+    return f"{name:<38}{sum(map(bool, hits)):6}"
 
 
 def _routes(rows: Sequence[Row]) -> Iterator[str]:
@@ -113,16 +141,16 @@ def _crossings(rows: Sequence[Row]) -> Iterator[str]:
         yield "Where the boundary crosses itself:"
         for row in crossing:
             span = f"t {row.crossing[0]:.2f} to {row.crossing[-1]:.2f}"
-            linear = f"straight paths {row.linear_crossing_frames}"
-            yield f"  {row.pair:<36}{len(row.crossing):3} frames, {span}; {linear}"
+            linear = len(row.drifts["straight paths"].crossing)
+            yield f"  {row.pair:<36}{len(row.crossing):3} frames, {span}; straight paths {linear}"
         yield ""
 
 
 def _worst(rows: Sequence[Row]) -> Iterator[str]:
-    yield f"{'The worst pairs':<36}{'folds':>6}{'SD mean':>9}{'SD worst':>10}{'angle':>8}  route"
-    for row in sorted(rows, key=badness, reverse=True)[:WORST]:
+    yield f"{'The worst pairs':<36}{'SD mean':>9}{'SD worst':>10}{'angle':>8}  what is wrong"
+    for row in worst(rows):
         angle = min(row.angle_source, row.angle_target)
         yield (
-            f"{row.pair:<36}{_folds(row):6}{row.distortion_mean:9.3f}"
-            f"{row.distortion_worst:10.4g}{angle:7.2f}°  {row.route}, {row.tried} tried"
+            f"{row.pair:<36}{row.distortion_mean:9.3f}{row.distortion_worst:10.4g}{angle:7.2f}°"
+            f"  {complaints(row)}; {row.tried} tried{', mirror offered' if row.mirror else ''}"
         )

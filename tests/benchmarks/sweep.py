@@ -2,7 +2,8 @@
 
 Each pair is solved with automatic marks. The folder gets ``table.csv`` with a line a pair,
 ``summary.txt``, ``sheet-*.png`` with every pair and ``worst.png`` with the worst ones. On the
-sheets, equal hues along both boundaries are places that belong together.
+sheets, equal hues along both boundaries are places that belong together. Beside ours stand straight
+paths, blended lengths and angles, and the JavaScript library flubber where node can run it.
 """
 
 from __future__ import annotations
@@ -10,79 +11,63 @@ from __future__ import annotations
 import argparse
 import csv
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-import numpy as np
 from PySide6.QtGui import QImage
 from tqdm import tqdm
 
-import core
-from core.morph.quality import crosses_itself, folds
-from tests.benchmarks.measures import Row, measure
+from core.model import Recipe
+from tests.benchmarks.flubber import AbsentError, installed
+from tests.benchmarks.glyphs import glyph_pairs
+from tests.benchmarks.holes import hole_pairs
+from tests.benchmarks.icons import icon_pairs
+from tests.benchmarks.measures import Row
 from tests.benchmarks.pairs import OUTLINES, Pair, across_classes, load_outlines, within_classes
-from tests.benchmarks.sheet import Panel, application, draw_row, save, stack
-from tests.benchmarks.summary import WORST, badness, summary
+from tests.benchmarks.sheet import application, draw_row, save, stack
+from tests.benchmarks.summary import summary
+from tests.benchmarks.survey import Plan, Refused, survey_all
+from tests.benchmarks.worst import WORST, badness
 
-STRIP = np.arange(1, 6) / 6
-"""Moments of the in-betweens that are drawn."""
 PAIRS_A_SHEET = 12
 SIDE = 130
 ABSENT = 2
 """Exit code without the outlines."""
 
 
-def sweep(pairs: Iterable[Pair], frames: int, folder: Path) -> str:
+def sweep(pairs: Iterable[Pair], plan: Plan, folder: Path, jobs: int = 1) -> str:
     """Measure and draw pairs into a folder; return the summary."""
     rows: list[Row] = []
-    refused: list[tuple[str, str]] = []
+    refused: list[Refused] = []
     worst: list[tuple[Row, QImage]] = []
     sheets = _Sheets(folder)
-    for pair in pairs:
-        try:
-            row, morph = measure(pair, frames)
-        except core.MorphError as error:
-            refused.append((pair.name, str(error)))
+    for found in survey_all(plan, pairs, jobs):
+        if isinstance(found, Refused):
+            refused.append(found)
             continue
-        rows.append(row)
-        picture = draw_row(list(panels(row, morph)), SIDE)
+        rows.append(found.row)
+        picture = draw_row(found.panels, SIDE)
         sheets.add(picture)
-        worst = sorted([*worst, (row, picture)], key=lambda each: badness(each[0]))[-WORST:]
+        worst = sorted([*worst, (found.row, picture)], key=lambda each: badness(each[0]))[-WORST:]
     sheets.close()
     if worst:
         save(stack([picture for _, picture in reversed(worst)]), folder / "worst.png")
     write_table(rows, refused, folder / "table.csv")
-    text = summary(rows, refused)
+    text = summary(rows, refused, timed=jobs == 1)
     (folder / "summary.txt").write_text(text, encoding="utf-8")
     return text
 
 
-def panels(row: Row, morph: core.Morph) -> Iterator[Panel]:
-    """Yield the source, its mesh, the target's mesh, the target, and five in-betweens."""
-    source, target = row.pair.split(" → ")
-    rest, goal, rings, triangles = morph.rest, morph.target, morph.rings, morph.triangles
-    turned = folds(goal, triangles)
-    yield Panel(source, rest, rings, rainbow=True)
-    yield Panel(f"{row.triangles} triangles", rest, rings, triangles)
-    yield Panel(f"SD {row.distortion_mean:.2f}", goal, rings, triangles, turned)
-    yield Panel(target, goal, rings, rainbow=True)
-    for t in STRIP:
-        frame = morph.at(t)
-        crosses = crosses_itself([frame[ring] for ring in rings])
-        title = f"{t:.2f} crosses" if crosses else f"{t:.2f}"
-        yield Panel(title, frame, rings)
-
-
-def write_table(rows: Sequence[Row], refused: Sequence[tuple[str, str]], path: Path) -> None:
+def write_table(rows: Sequence[Row], refused: Sequence[Refused], path: Path) -> None:
     """Write a line a pair; those that were refused have the reason in the last column."""
     records = [row.record() for row in rows]
-    columns = list(records[0]) if records else ["pair"]
+    columns = dict.fromkeys(["pair", *(name for record in records for name in record), "refused"])
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.DictWriter(file, [*columns, "refused"], restval="")
+        table = csv.DictWriter(file, list(columns), restval="")
         table.writeheader()
         table.writerows(records)
-        table.writerows({"pair": pair, "refused": reason} for pair, reason in refused)
+        table.writerows({"pair": each.pair, "refused": each.reason} for each in refused)
 
 
 class _Sheets:
@@ -104,21 +89,50 @@ class _Sheets:
             self._rows.clear()
 
 
+def arguments() -> argparse.ArgumentParser:
+    """Return the command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add = parser.add_argument
+    add("--every", type=int, default=1, metavar="N", help="take each N-th of the pairs; 0: none")
+    add("--cross-class", type=int, default=0, metavar="N", help="add N pairs of two classes")
+    add("--own", action="store_true", help="add letters, icons, and shapes with holes")
+    add("--given-marks", action="store_true", help="solve again with the marks that were found")
+    add("--density", type=int, default=128, help="of the mesh; 40 gives about 540 triangles")
+    add("--frames", type=int, default=33, help="frames a pair, ends included")
+    add("--jobs", type=int, default=1, metavar="N", help="processes; only 1 gives timings")
+    add("-o", "--output", type=Path, default=Path("out/sweep"), help="folder for table and sheets")
+    return parser
+
+
+def chosen_pairs(options: argparse.Namespace) -> list[Pair]:
+    """Return the pairs that the command line asks for; needs a running application."""
+    pairs: list[Pair] = []
+    if options.every or options.cross_class:
+        outlines = load_outlines(OUTLINES)
+        pairs += within_classes(outlines)[:: options.every] if options.every else []
+        pairs += across_classes(outlines, options.cross_class)
+    if options.own:
+        pairs += [*glyph_pairs(), *icon_pairs(), *hole_pairs()]
+    return pairs
+
+
 def main() -> None:
     """Sweep over the pairs and print the summary."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="take each N-th pair")
-    parser.add_argument("--cross", type=int, default=0, metavar="N", help="add N of two classes")
-    parser.add_argument("--frames", type=int, default=33, help="frames a pair, ends included")
-    parser.add_argument("-o", "--output", type=Path, default=Path("out/sweep"))
+    parser = arguments()
     options = parser.parse_args()
-    if not OUTLINES.is_file():
+    if (options.every or options.cross_class) and not OUTLINES.is_file():
         parser.exit(ABSENT, f"The outlines are not here: {OUTLINES}\n")
     os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     app = application()
-    outlines = load_outlines()
-    pairs = within_classes(outlines)[:: options.every] + across_classes(outlines, options.cross)
-    print(sweep(tqdm(pairs, unit="pair"), options.frames, options.output))
+    try:
+        flubber = installed()
+    except AbsentError as reason:
+        print(f"Without flubber: {reason}.")
+        flubber = None
+    recipe = Recipe(density=options.density)
+    plan = Plan(options.frames, recipe, options.given_marks, flubber)
+    pairs = tqdm(chosen_pairs(options), unit="pair")
+    print(sweep(pairs, plan, options.output, options.jobs))
     del app
 
 
