@@ -1,4 +1,4 @@
-"""When the chosen key comes, and how the span under the playhead is timed and turns."""
+"""The chosen key: when, and how it is passed; and how the span under the playhead moves."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from app.panels.section import Section
 from app.workspace import Workspace
 from core.model import Document, Easing
 from core.model.easing import PRESETS
-from core.model.edits import move_keyframe, set_easing, set_turning
+from core.model.edits import move_keyframe, set_easing, set_passing, set_turning
 from core.model.turning import MOST_TURNS, Direction, Path
 from core.morph.scene import span_of
 
@@ -26,14 +26,26 @@ MOST_FRAMES = 1_000_000
 
 
 class KeyframeSection(Section):
-    """The frame of the chosen keyframe."""
+    """The frame of the chosen keyframe, and whether the motion passes through it."""
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__("", workspace, parent)
         self.frame = NumberField(self.tr("Frame of the keyframe"), 1, MOST_FRAMES)
         self.frame.setToolTip(self.tr("When the keyframe comes; between its neighbours"))
         self.frame.edited.connect(self._move)
+        self.passes = Choice(
+            self.tr("Motion at the keyframe"),
+            [(self.tr("Starts anew"), False), (self.tr("Passes through"), True)],
+        )
+        self.passes.setToolTip(
+            self.tr(
+                "Passes through: one velocity before and after the key, which no easing slows.\n"
+                "It takes a span on either side that moves as rigidly as possible and is no hold."
+            )
+        )
+        self.passes.edited.connect(self._pass)
         self.add_row(self.tr("Frame"), self.frame)
+        self.add_row(self.tr("Motion"), self.passes)
 
     def refresh(self) -> None:
         """Show the chosen keyframe."""
@@ -48,6 +60,15 @@ class KeyframeSection(Section):
         self.frame.limit(max(least, self.workspace.playhead.lowest), min(most, MOST_FRAMES))
         self.frame.show_value(layer.keyframes[key].frame)
         self.frame.setEnabled(not layer.locked)
+        self.passes.show_value(layer.keyframes[key].passes)
+        self.passes.setEnabled(not layer.locked and layer.passable(key))
+
+    def _pass(self, passes: bool) -> None:
+        selection = self.workspace.selection
+        if selection.layer is not None:
+            text = self.tr("Pass through keyframe") if passes else self.tr("End motion at keyframe")
+            target = (selection.layer.id, selection.key)
+            self.workspace.session.apply(text, set_passing, *target, passes)
 
     def _move(self, frame: float) -> None:
         selection = self.workspace.selection
@@ -115,7 +136,7 @@ class SpanSection(Section):
         first, last = layer.keyframes[index : index + 2]
         self.set_title(self.tr("Span {} → {}").format(first.frame, last.frame))
         self.preset.show_value(first.easing)
-        self.curve.show_value(first.easing)
+        self.curve.show_value(layer.easing_of(index))
         self.curve.show_time(t)
         self.direction.show_value(first.turning.direction)
         self.turns.show_value(first.turning.turns)

@@ -8,7 +8,7 @@ from app.timeline.rows import Place
 from app.workspace import Workspace
 from core.errors import EditError
 from core.model import Easing, Layer
-from core.model.edits import move_keyframe, remove_keyframe, set_easing
+from core.model.edits import move_keyframe, remove_keyframe, set_easing, set_passing
 
 
 def _tr(text: str) -> str:
@@ -50,6 +50,13 @@ def ease(workspace: Workspace, place: Place, easing: Easing) -> None:
     """Set the timing of a span."""
     if not _locked(workspace, workspace.session.document.layer(place[0])):
         workspace.session.apply(_tr("Change easing"), set_easing, *place, easing)
+
+
+def let_pass(workspace: Workspace, place: Place, passes: bool) -> None:
+    """Let the motion pass through a key, or end there and start anew."""
+    if not _locked(workspace, workspace.session.document.layer(place[0])):
+        text = _tr("Pass through keyframe") if passes else _tr("End motion at keyframe")
+        workspace.session.apply(text, set_passing, *place, passes)
 
 
 def play_only(workspace: Workspace, place: Place) -> None:

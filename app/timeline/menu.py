@@ -28,6 +28,15 @@ class TrackMenu(QMenu):
                 action = easing.addAction(text, partial(keys.ease, workspace, place, preset))
                 action.setCheckable(True)
                 action.setChecked(layer.keyframes[place[1]].easing == preset)
+        if layer.passable(place[1]):
+            passes = layer.passes(place[1])
+            through = self.addAction(
+                self.tr("Pass through this key"),
+                partial(keys.let_pass, workspace, place, not passes),
+            )
+            through.setCheckable(True)
+            through.setChecked(passes)
+        if place[1] < layer.spans:
             play = partial(keys.play_only, workspace, place)
             set_icon(self.addAction(self.tr("Play only this span"), play), "play")
         everything = self.addAction(

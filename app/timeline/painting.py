@@ -13,6 +13,8 @@ from core.model import Layer
 
 KEY = 7.0
 """Half the diagonal of a key's diamond."""
+DISC = 0.85
+"""Radius of a key's disc, to half the diagonal of a diamond of the same weight."""
 BAR = 14.0
 """Height of a span."""
 BAND = 5.0
@@ -89,13 +91,19 @@ def _dashed(colour: str, width: float, drawn: float, left_out: float) -> QPen:
 
 
 def paint_key(
-    painter: QPainter, centre: QPointF, *, chosen: bool, hovered: bool, dim: bool
+    painter: QPainter, centre: QPointF, *, passed: bool, chosen: bool, hovered: bool, dim: bool
 ) -> None:
-    """Draw a key's diamond; the chosen one is larger, ringed and in the selection's colour."""
+    """Draw a key's diamond, or a disc where the motion passes through it.
+
+    The chosen one is larger, ringed and in the selection's colour.
+    """
     c = colours()
     size = KEY + (1.5 if chosen else 0.0) + (1.0 if hovered else 0.0)
     painter.setPen(QPen(QColor(c.window if not chosen else c.text), 1.5))
     painter.setBrush(QColor(c.selection if chosen else c.disabled if dim else c.text))
+    if passed:
+        painter.drawEllipse(centre, DISC * size, DISC * size)
+        return
     x, y = centre.x(), centre.y()
     corners = [(x, y - size), (x + size, y), (x, y + size), (x - size, y)]
     painter.drawPolygon(QPolygonF([QPointF(*corner) for corner in corners]))

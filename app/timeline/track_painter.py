@@ -101,6 +101,7 @@ def _paint_keys(
         painting.paint_key(
             painter,
             QPointF(rows.scale.x(key.frame), top + MIDDLE),
+            passed=layer.passes(index),
             chosen=current and workspace.selection.key == index,
             hovered=hovered == (layer.id, index),
             dim=layer.locked or not layer.visible,

@@ -42,6 +42,8 @@ def describe_selection(workspace: Workspace) -> str:
 def _describe_key(workspace: Workspace, place: Place) -> str:
     layer = workspace.session.document.layer(place[0])
     head = _tr("{}: keyframe at frame {}").format(layer.name, layer.keyframes[place[1]].frame)
+    if layer.passes(place[1]):
+        head += "\n" + _tr("The motion passes through")
     use = _tr("Locked") if layer.locked else _tr("Drag to move in time; Del deletes")
     return f"{head}\n{use}"
 

@@ -71,14 +71,16 @@ class Layer:
         """Return whether the motion passes through a keyframe rather than ends and starts anew.
 
         Shape and time run on: both spans have one velocity there, and neither's easing slows it.
-        That takes a span that moves on either side, and gradients that both can share.
         """
-        return (
-            0 < key < self.spans
-            and self.keyframes[key].passes
-            and self.recipe.method == "arap"
-            and not any(k.easing.hold for k in self.keyframes[key - 1 : key + 1])
-        )
+        return self.passable(key) and self.keyframes[key].passes
+
+    def passable(self, key: int) -> bool:
+        """Return whether there is motion on both sides of a keyframe that could pass through it.
+
+        It must be rigid: only its gradients can have the velocity of both sides.
+        """
+        held = any(other.easing.hold for other in self.keyframes[max(key - 1, 0) : key + 1])
+        return 0 < key < self.spans and self.recipe.method == "arap" and not held
 
     def easing_of(self, span: int) -> Easing:
         """Return the easing of a span, even where the motion passes through its keys."""

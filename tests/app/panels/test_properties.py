@@ -90,6 +90,7 @@ EDITS: dict[str, Callable[[PropertiesPanel], None]] = {
     "stroke width": lambda p: type_in(p.layer.stroke_width, "12.5"),
     "frame": lambda p: type_in(p.keyframe.frame, "20"),
     "easing": lambda p: choose(p.span.preset, "Hold"),
+    "passing": lambda p: choose(p.keyframe.passes, "Passes through"),
     "turn": lambda p: choose(p.span.direction, "Counter-clockwise"),
     "extra turns": lambda p: type_in(p.span.turns, "2"),
     "path": lambda p: choose(p.span.path, "Straight"),
@@ -126,6 +127,7 @@ def test_the_fields_set_what_they_name(panel: PropertiesPanel, workspace: Worksp
     assert changed.style.stroke_width == 12.5
     assert changed.keyframes[1].frame == 20
     assert changed.keyframes[0].easing == HOLD  # the playhead, at 13, is now in the first span
+    assert changed.keyframes[1].passes
     assert changed.keyframes[0].turning == Turning("counter-clockwise", 2, "straight")
     recipe = changed.recipe
     assert (recipe.method, recipe.density) == ("linear", 256)
@@ -147,6 +149,26 @@ def test_the_span_says_how_far_it_turns_as_soon_as_it_is_solved(
     qtbot.waitUntil(lambda: panel.span.angle.text() == "691° counter-clockwise")
     choose(panel.mapping.method, "Straight paths")
     assert not any(field.isEnabled() for field in (panel.span.direction, panel.span.turns))
+
+
+def test_only_a_key_with_motion_on_both_sides_can_be_passed(
+    panel: PropertiesPanel, workspace: Workspace
+) -> None:
+    for key, passable in ((0, False), (1, True), (2, False)):
+        workspace.selection.select_key(1, key)
+        assert panel.keyframe.passes.isEnabled() == passable
+    workspace.selection.select_key(1, 1)
+    choose(panel.span.preset, "Hold")
+    assert not panel.keyframe.passes.isEnabled()
+
+
+def test_the_curve_shows_that_easing_is_even_at_a_key_that_is_passed(
+    panel: PropertiesPanel, workspace: Workspace
+) -> None:
+    workspace.playhead.move_to(5)
+    choose(panel.keyframe.passes, "Passes through")
+    assert panel.span.curve.accessibleDescription().endswith("0.67, 0.67")
+    assert panel.span.preset.currentText() == "Ease in"
 
 
 def test_turning_belongs_to_the_span_under_the_playhead(

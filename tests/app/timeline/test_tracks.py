@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from PySide6.QtCore import QEvent, QObject, QPoint, QRectF, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QContextMenuEvent, QHelpEvent, QImage, QPainter, QPaintEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu, QToolTip
 from pytestqt.qtbot import QtBot
 
 from app.jobs.solver import SpanState
-from app.timeline.painting import BAND, paint_state
+from app.timeline.menu import TrackMenu
+from app.timeline.painting import BAND, paint_key, paint_state
 from app.timeline.rows import ROW
 from app.timeline.timeline import Timeline
 from app.workspace import Workspace
@@ -182,6 +183,34 @@ def test_the_menu_of_a_span_sets_its_easing_in_one_step(
     menu.close()
     assert workspace.session.document.layer(1).keyframes[1].easing.hold
     assert workspace.session.undo_stack.count() == 1
+
+
+def test_the_menu_of_a_key_lets_the_motion_pass_through_it(
+    timeline: Timeline, workspace: Workspace
+) -> None:
+    place = QPoint(round(x_of(timeline, 13)), round(BOTTOM))
+    for passes in (True, False):
+        event = QContextMenuEvent(
+            QContextMenuEvent.Reason.Mouse, place, timeline.tracks.mapToGlobal(place)
+        )
+        QApplication.sendEvent(timeline.tracks, event)
+        menu = timeline.tracks.findChildren(TrackMenu)[-1]
+        through = next(action for action in menu.actions() if "Pass through" in action.text())
+        assert through.isChecked() != passes
+        through.trigger()
+        menu.close()
+        assert workspace.session.document.layer(1).keyframes[1].passes == passes
+    assert workspace.session.undo_stack.count() == 2
+
+
+@pytest.mark.parametrize("passed", [True, False])
+def test_a_key_is_round_where_the_motion_passes_through_it(passed: bool) -> None:
+    image = QImage(20, 20, QImage.Format.Format_RGB32)
+    painter = QPainter(image)
+    paint_key(painter, QPointF(10, 10), passed=passed, chosen=False, hovered=False, dim=False)
+    painter.end()
+    rim = image.pixelColor(13, 13)  # of a diamond; a disc has it inside
+    assert (rim == image.pixelColor(10, 10)) == passed
 
 
 # -- keyboard ----------------------------------------------------------------------------------

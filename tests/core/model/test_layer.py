@@ -37,6 +37,7 @@ def test_a_key_begins_its_span_and_the_last_key_ends_the_last_one(layer: Layer) 
 @given(layers(max_keys=1), frames)
 def test_a_single_key_stands_still_for_ever(layer: Layer, frame: float) -> None:
     assert layer.span_at(frame) == (0, 0.0)
+    assert layer.progress_at(frame) == (0, 0.0)
 
 
 @given(layers(), frames)
