@@ -63,9 +63,11 @@ def fit_limbs(
     """
     near = np.exp(-(np.abs(places[:, None] - source) ** 2) / (2 * reach**2)) * weights
     near /= np.maximum(near.sum(axis=1, keepdims=True), 1e-300)
-    here, there = near @ source, near @ target
-    turn = near @ (np.conj(source) * target) - np.conj(here) * there
-    return Fit(here, there, np.abs(fit(source, target, weights).factor) * _unit(turn))
+    moments = np.column_stack([source, target, np.conj(source) * target])
+    # as real numbers: a product that is too small for threads, which would wait for each other
+    here, there, turn = (near @ moments.view(np.float64)).view(np.complex128).T
+    scale = np.abs(fit(source, target, weights).factor)
+    return Fit(here, there, scale * _unit(turn - np.conj(here) * there))
 
 
 def shifts(source: Complex, target: Complex, most: int, rotation: complex | None = None) -> Indices:

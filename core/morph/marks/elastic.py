@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import gcd
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from core.geometry.triangulation import Indices
@@ -19,12 +20,11 @@ Costs = NDArray[np.float32]
 
 FINE, STEEPEST = 4, 8
 """The longest steps: of any slope, and with a one, for what only one of the shapes has."""
-STEPS = tuple(
-    (a, b)
-    for a in range(1, STEEPEST + 1)
-    for b in range(1, STEEPEST + 1)
-    if gcd(a, b) == 1 and (max(a, b) <= FINE or min(a, b) == 1)
-)
+FLAT = tuple((1, b) for b in range(STEEPEST, 0, -1))
+STEEP = tuple((a, 1) for a in range(STEEPEST, 1, -1))
+OTHER = tuple((a, b) for a in range(2, FINE + 1) for b in range(2, FINE + 1) if gcd(a, b) == 1)
+STEPS = (*FLAT, *STEEP, *OTHER)
+"""In this order, those that come from one row, and those that come from one column, are windows."""
 
 
 def cheapest_paths(
@@ -41,48 +41,55 @@ def cheapest_paths(
     pad = STEEPEST  # so that every step has somewhere to come from
     best = np.full((rows + pad, count, columns + pad), np.inf, dtype=np.float32)
     best[pad, :, pad : pad + slack + 1] = 0.0
+    window = sliding_window_view(best, columns, axis=2).transpose(0, 2, 1, 3)  # by shift
     ways = np.empty((len(STEPS), count, columns), dtype=np.float32)
+    flat, steep = len(FLAT), len(FLAT) + len(STEEP)
     for row in range(1, rows):
-        for way, step, (a, b) in zip(ways, steps, STEPS, strict=True):
-            np.add(best[pad + row - a, :, pad - b : pad - b + columns], step[row], out=way)
-        ways.min(axis=0, out=best[pad + row, :, pad:])
+        here, cost = pad + row, steps[row]
+        np.add(window[here - 1, :pad], cost[:flat], out=ways[:flat])
+        np.add(window[here - pad : here - 1, pad - 1], cost[flat:steep], out=ways[flat:steep])
+        for way, (a, b) in enumerate(OTHER, steep):
+            np.add(window[here - a, pad - b], cost[way], out=ways[way])
+        ways.min(axis=0, out=best[here, :, pad:])
     ends = best[-1, :, columns + pad - slack - 1 :]
-    last, costs = ends.argmin(axis=1), ends.min(axis=1).astype(float)
-    paths = [
-        _walk_back(best[:, c], steps[:, :, c], columns - slack - 1 + int(last[c]))
-        if np.isfinite(costs[c])
-        else np.empty((0, 2), dtype=np.int64)
-        for c in range(count)
-    ]
-    return paths, costs
+    costs = ends.min(axis=1).astype(float)
+    return _walked_back(best, steps, columns - slack - 1 + ends.argmin(axis=1), costs), costs
 
 
 def _step_costs(misfits: Costs, widths: tuple[float, float]) -> Costs:
-    """Return (steps, n + 1, c, m + 1) what each step costs, by the sample where it ends."""
+    """Return (n + 1, steps, c, m + 1) what each step costs, by the sample where it ends."""
     count, rows, columns = misfits.shape
     table = np.ascontiguousarray(misfits.transpose(1, 0, 2))
-    costs = np.full((len(STEPS), rows, count, columns), np.inf, dtype=np.float32)
-    for cost, (a, b) in zip(costs, STEPS, strict=True):
+    costs = np.full((rows, len(STEPS), count, columns), np.inf, dtype=np.float32)
+    for way, (a, b) in enumerate(STEPS):
         if a >= rows or b >= columns:
             continue
         length = max(a, b)
-        total = 0.5 * (table[a:, :, b:] + table[:-a, :, :-b])  # trapezoidal rule along the step
+        total = table[a:, :, b:] + table[:-a, :, :-b]  # trapezoidal rule along the step
+        total *= np.float32(0.5)
         for k in range(1, length):
             i, j = round(a * k / length), round(b * k / length)
             total += table[a - i : rows - i, :, b - j : columns - j]
         wide, high = a * widths[0], b * widths[1]
         mean = np.sqrt(wide * high)
-        cost[a:, :, b:] = total * np.float32(mean / length) + np.float32(wide + high - 2 * mean)
+        total *= np.float32(mean / length)
+        np.add(total, np.float32(wide + high - 2 * mean), out=costs[a:, way, :, b:])
     return costs
 
 
-def _walk_back(best: Costs, steps: Costs, column: int) -> Indices:
-    """Follow the steps that attained the minimum; quicker than noting them on the way there."""
-    back_a, back_b = np.array(STEPS).T - STEEPEST  # ``best`` has a margin
-    row = steps.shape[1] - 1
-    path = [(row, column)]
-    while row > 0:
-        way = np.argmin(best[row - back_a, column - back_b] + steps[:, row, column])
-        row, column = row - STEPS[way][0], column - STEPS[way][1]
-        path.append((row, column))
-    return np.array(path[::-1])
+def _walked_back(best: Costs, steps: Costs, ends: Indices, costs: Array) -> list[Indices]:
+    """Follow, for all tables at once, the steps that attained the minimum.
+
+    That is quicker than noting them on the way there.
+    """
+    back, table = np.array(STEPS), np.arange(len(ends))
+    cell = np.column_stack([np.where(np.isfinite(costs), len(steps) - 1, 0), ends])
+    trail = [cell]
+    while cell[:, 0].any():
+        rows, columns = (cell[:, None] - back + STEEPEST).T
+        ways = best[rows, table, columns].T + steps[cell[:, 0], :, table, cell[:, 1]]
+        cell = cell - back[ways.argmin(axis=1)] * (cell[:, :1] > 0)
+        trail.append(cell)
+    cells = np.array(trail[::-1])
+    length = np.count_nonzero(cells[:, :, 0], axis=0)
+    return [cells[-1 - n :, c] if n else cells[:0, c] for c, n in enumerate(length)]

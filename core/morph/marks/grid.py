@@ -16,6 +16,8 @@ from core.morph.marks.elastic import STEEPEST
 
 BINS = 100
 """Samples of a contour."""
+COARSE = 2
+"""Every so-manieth of them is enough to begin with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +46,8 @@ class Grid:
         """
         pins = np.array(fixed)
         arcs = np.mod(np.roll(pins, -1, axis=0) - pins, 1.0) if len(pins) > 1 else np.ones((1, 2))
-        bins = np.maximum(np.round(arcs * BINS), 1)
-        bins = np.maximum(bins, np.ceil(bins[:, ::-1] / STEEPEST)).astype(np.int64)
+        bins = np.maximum(np.round(arcs * (BINS / COARSE)), 1)
+        bins = np.maximum(bins, np.ceil(bins[:, ::-1] / STEEPEST)).astype(np.int64) * COARSE
         here, there = (
             np.concatenate([a + arc * np.arange(n) / n for a, arc, n in zip(*side, strict=True)])
             for side in zip(pins.T, arcs.T, bins.T, strict=True)

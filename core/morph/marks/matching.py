@@ -18,19 +18,20 @@ from core.morph.marks.alignment import Fit, fit, fit_limbs, leaning, overlays, p
 from core.morph.marks.chain import Pair
 from core.morph.marks.contour import Complex, Contour, Samples, gap
 from core.morph.marks.elastic import cheapest_paths
-from core.morph.marks.grid import BINS, Grid, bin_width, widths
+from core.morph.marks.grid import BINS, COARSE, Grid, bin_width, widths
 from core.morph.marks.misfit import (
     confidence,
     direction_misfits,
     position_misfits,
     turn_misfits,
 )
+from core.progress import Watch, unwatched
 
 SHIFTS, OVERLAYS, BENDS = 2, 3, 2
 """Ways to begin with that are tried, of each kind; as many with the mirrored target."""
 KEPT = 3
 """How many of either are followed further."""
-SLACK = 8
+SLACK = 4
 """By how many bins a first path may miss its own start."""
 REACHES = (0.6, 0.3)
 """How far a part of the contour carries others along, in radii: a round each."""
@@ -78,12 +79,14 @@ def match_contours(
     target: Contour,
     fixed: Sequence[Pair] = (),
     rotation: complex | None = None,
+    watch: Watch = unwatched,
 ) -> list[Match]:
     """Return correspondences of two contours that differ, the cheapest first.
 
     ``fixed`` pairs of places, in the same cyclic order on both, stay together. Without them the
     mirrored target is tried as well, unless the ``rotation`` (of length one) of the source is
-    known; then that alone is tried.
+    known; then that alone is tried. ``watch(stage)`` is called before every round and may
+    raise ``Cancelled``.
     """
     grid = Grid.through(fixed) if fixed else Grid.free(source, target)
     here = Samples.of(source, grid.source)
@@ -91,13 +94,20 @@ def match_contours(
     if not fixed and rotation is None:
         reflected = target.mirrored()
         sides.append(_Side.of(here, reflected, Grid.free(source, reflected).target, mirrored=True))
-    laid = [guess for side in sides for guess in _laid(source, here, side, grid.pins, rotation)]
-    paths = _cheapest(here, laid, 0 if fixed else SLACK)
-    if rotation is None:
-        bent = [guess for side in sides for guess in _bent(here, side, grid.pins)]
-        paths += _cheapest(here, bent) if fixed else _closed(here, _cheapest(here, bent, SLACK))
+    coarse, slack = here.every(COARSE), 0 if fixed else SLACK
+    laid, bent = [], []
+    for side in (side.every(COARSE) for side in sides):
+        laid += _laid(source, coarse, side, grid.pins // COARSE, rotation)
+        bent += _bent(side, grid.pins // COARSE) if rotation is None else []
+    paths = _cheapest(coarse, laid, slack, watch)
+    if bent:  # their ends have to meet before they tell where anything lies
+        opened = _cheapest(coarse, bent, slack, watch)
+        paths += _cheapest(
+            here, [_closed(path, sides, free=not fixed) for path in opened], 0, watch
+        )
     for reach in REACHES:
-        paths = _cheapest(here, [_followed(here, path, reach, free=not fixed) for path in paths])
+        guesses = [_followed(here, path, sides, reach, free=not fixed) for path in paths]
+        paths = _cheapest(here, guesses, 0, watch)
     return [_match(here, path) for path in paths]
 
 
@@ -116,6 +126,12 @@ class _Side:
         """Sample a target to be matched with the samples of a source."""
         there = Samples.of(contour, at)
         return cls(contour, there, mirrored, turn_misfits(here, there))
+
+    def every(self, step: int) -> _Side:
+        """Return every so-manieth sample."""
+        return _Side(
+            self.contour, self.samples.every(step), self.mirrored, self.turns[::step, ::step]
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,10 +197,8 @@ def _laid(
             for k in shifts(here.points, there.points, SHIFTS, rotation)
         ]
     if rotation is None:
-        coarse = here.every(2), there.every(2)
-        first = ways[0][1].rotation
-        for way in overlays(source, side.contour, *coarse, first, OVERLAYS):
-            ways.append((pins if len(pins) else 2 * _best_cell(way, *coarse), way))
+        for way in overlays(source, side.contour, here, there, ways[0][1].rotation, OVERLAYS):
+            ways.append((pins if len(pins) else _best_cell(way, here, there), way))
     return [
         _Guess.of(here, side, own, way(here.points), np.full(n, way.rotation)) for own, way in ways
     ]
@@ -198,12 +212,12 @@ def _best_cell(way: Fit, here: Samples, there: Samples) -> Indices:
     return np.array([np.unravel_index(np.argmin(together), misfits.shape)])
 
 
-def _bent(here: Samples, side: _Side, pins: Indices) -> list[_Guess]:
+def _bent(side: _Side, pins: Indices) -> list[_Guess]:
     """Go by the turns alone: those of a limb stay when it bends."""
     starts = [pins]
     if not len(pins):
-        i = np.arange(BINS)[:, None]
-        along = side.turns[i, (i + i.T) % BINS].sum(axis=0)
+        i = np.arange(len(side.turns))[:, None]
+        along = side.turns[i, (i + i.T) % len(i)].sum(axis=0)
         starts = [np.array([[0, k]]) for k in peaks(-along, BENDS)]
     return [_Guess(side, own, side.turns, side.turns, 0.0) for own in starts]
 
@@ -211,8 +225,9 @@ def _bent(here: Samples, side: _Side, pins: Indices) -> list[_Guess]:
 # -- from guess to path, and from path to guess ----------------------------------------------------
 
 
-def _cheapest(here: Samples, guesses: Sequence[_Guess], slack: int = 0) -> list[_Path]:
+def _cheapest(here: Samples, guesses: Sequence[_Guess], slack: int, watch: Watch) -> list[_Path]:
     """Find the cheapest path of each guess; of those that are alike the cheapest stays."""
+    watch("matching")
     knots, costs = _paths(here, guesses, slack)
     found: list[_Path] = []
     leanings = np.array([guess.leaning for guess in guesses])
@@ -255,18 +270,27 @@ def _paths(here: Samples, guesses: Sequence[_Guess], slack: int) -> tuple[list[I
     return [np.concatenate(own) for own in knots], costs
 
 
-def _followed(here: Samples, path: _Path, reach: float, free: bool) -> _Guess:
+def _closed(path: _Path, sides: Sequence[_Side], free: bool) -> _Guess:
+    """Go by the turns once more."""
+    side = sides[path.guess.side.mirrored]
+    return _Guess(side, _pins(path, side, free), side.turns, side.turns, 0.0)
+
+
+def _followed(
+    here: Samples, path: _Path, sides: Sequence[_Side], reach: float, free: bool
+) -> _Guess:
     """Expect every part of the source where the path has led the parts around it."""
-    side = path.guess.side
-    matched = side.samples.between(path.columns)
-    limbs = fit_limbs(here.points, here.points, matched, widths(here.at), reach)
+    before, there = here.every(len(here.at) // len(path.columns)), path.guess.side
+    matched = there.samples.between(path.columns)
+    limbs = fit_limbs(here.points, before.points, matched, widths(before.at), reach)
+    side = sides[there.mirrored]
+    return _Guess.of(here, side, _pins(path, side, free), limbs(here.points), limbs.rotation)
+
+
+def _pins(path: _Path, side: _Side, free: bool) -> Indices:
+    """Return what belongs together for sure, as samples of a side that may be finer."""
     pins = _best_pin(path) if free else path.guess.pins
-    return _Guess.of(here, side, pins, limbs(here.points), limbs.rotation)
-
-
-def _closed(here: Samples, paths: Sequence[_Path]) -> list[_Path]:
-    """Trace paths anew whose ends did not have to meet."""
-    return _cheapest(here, [replace(path.guess, pins=_best_pin(path)) for path in paths])
+    return pins * (len(side.turns) // len(path.guess.misfits))
 
 
 def _best_pin(path: _Path) -> Indices:

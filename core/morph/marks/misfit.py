@@ -24,7 +24,8 @@ BESIDE, REACH = 3, 10
 
 def position_misfits(expected: Complex, there: Complex) -> Array:
     """Return (..., n, m) misfits of expected points (..., n) with those of a target (m,)."""
-    return POSITION * _levelled(np.abs(expected[..., None] - there) ** 2, FAR)
+    away = expected[..., None] - there
+    return POSITION * _levelled(away.real**2 + away.imag**2, FAR)
 
 
 def turn_misfits(here: Samples, there: Samples) -> Array:
@@ -39,7 +40,8 @@ def turn_misfits(here: Samples, there: Samples) -> Array:
 def direction_misfits(here: Samples, rotation: Complex, there: Samples) -> Array:
     """Return (..., n, m) misfits of directions, the source's turned by ``rotation`` (..., n)."""
     turned = (here.directions * rotation)[..., None]
-    return DIRECTION * (1 - (turned * np.conj(there.directions)).real)
+    cosine = turned.real * there.directions.real + turned.imag * there.directions.imag
+    return DIRECTION * (1 - cosine)
 
 
 def confidence(misfits: Array, shape: Array, columns: Array) -> Array:
@@ -64,4 +66,5 @@ def _levelled(values: Array, half: float) -> Array:
 
 def _smoothed(values: Array) -> Array:
     """Average every row with its neighbours around the ring."""
-    return np.mean([np.roll(values, k, axis=0) for k in range(1 - BESIDE, BESIDE)], axis=0)
+    around = np.arange(len(values))[:, None] + np.arange(1 - BESIDE, BESIDE)
+    return values[around % len(values)].mean(axis=1)

@@ -13,6 +13,7 @@ from core.morph.marks.chain import Pair, in_order
 from core.morph.marks.contour import Contour, gap
 from core.morph.marks.keymarks import Route
 from core.morph.marks.matching import match_contours
+from core.progress import Watch, unwatched
 
 EMPTY = 1e-6
 """Rings that enclose less than this part of their perimeter squared match nothing."""
@@ -110,14 +111,18 @@ class RingMatch:
 
 
 def match_rings(
-    source: Array, target: Array, fixed: Sequence[Pair] = (), rotation: complex | None = None
+    source: Array,
+    target: Array,
+    fixed: Sequence[Pair] = (),
+    rotation: complex | None = None,
+    watch: Watch = unwatched,
 ) -> list[RingMatch]:
     """Match two rings (n, 2) and (k, 2) in ways that differ as wholes, the best first.
 
     ``fixed`` pairs of arc lengths stay together; where they contradict each other's order around
     the rings, the earlier ones count. ``rotation`` (of length one) is that of the source, if it is
     known. A mirrored match is among them when it is better than the others. Rings that enclose
-    nothing have no match.
+    nothing have no match. ``watch(stage)`` is called between steps and may raise ``Cancelled``.
     """
     if not (_encloses(source) and _encloses(target)):
         return []
@@ -125,7 +130,7 @@ def match_rings(
     perimeters = np.array([arc_lengths(ring)[-1] for ring in (source, target)])
     pairs = _pairs(a, b, perimeters, fixed)
     found = []
-    for match in match_contours(a, b, pairs, rotation):
+    for match in match_contours(a, b, pairs, rotation, watch):
         there = b.mirrored() if match.mirrored else b
         found.append(RingMatch(a, there, perimeters, Route.of(a, there, match, pairs)))
     return found
