@@ -11,6 +11,7 @@ Cancelled          the caller asked to stop; nothing is wrong, so it is none of 
 
 Each error says *what* is wrong, *where*, and gives a *hint* how to mend it. The three parts stay
 apart so that a window can highlight the place and a terminal can print one line.
+A ``Repair`` says what and where of a fault that was mended.
 """
 
 from __future__ import annotations
@@ -32,6 +33,19 @@ class Where:
     """Indices of the marks involved."""
     path: str = ""
     """The file."""
+
+
+@dataclass(frozen=True)
+class Repair:
+    """A fault that was mended instead of refused."""
+
+    what: str
+    where: Where
+    moved: float
+    """How far the outline is now from what was drawn, as a fraction of its diagonal."""
+
+    def __str__(self) -> str:
+        return self.what
 
 
 class MorphError(Exception):

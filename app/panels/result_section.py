@@ -117,7 +117,7 @@ class ResultSection(Section):
             "mean": _distortion(report.distortion_mean),
             "worst": _distortion(report.distortion_worst),
             "time": _milliseconds(report.seconds),
-            "repairs": "\n".join(report.repairs) or self.tr("none"),
+            "repairs": "\n".join(map(str, report.repairs)) or self.tr("none"),
         }
         for name, text in shown.items():
             self._values[name].setText(text)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,8 +31,15 @@ class Track:
 
     def length_of(self, at: float) -> float:
         """Return the arc length at a place."""
-        places = np.append(self.polyline.at, float(self.nodes))
-        return float(np.interp(at % self.nodes, places, self.lengths))
+        return float(np.interp(at % self.nodes, self._places, self.lengths))
+
+    def vertex_of(self, at: float) -> float:
+        """Return a place counted in vertices of the polyline."""
+        return float(np.interp(at % self.nodes, self._places, np.arange(len(self._places))))
+
+    def place_at_vertex(self, vertex: float) -> float:
+        """Return the place that lies at a vertex of the polyline, or a fraction on from one."""
+        return self._on_node(float(np.interp(vertex, np.arange(len(self._places)), self._places)))
 
     def point_at(self, at: float) -> Array:
         """Return the point (2,) of the polyline at a place."""
@@ -40,15 +47,20 @@ class Track:
 
     def place_of(self, length: float) -> float:
         """Return the place at an arc length, taken modulo the perimeter; that of a node exactly."""
-        places = np.append(self.polyline.at, float(self.nodes))
-        at = float(np.interp(length % self.perimeter, self.lengths, places))
-        return float(round(at) if abs(at - round(at)) < NODE else at) % self.nodes
+        return self._on_node(float(np.interp(length % self.perimeter, self.lengths, self._places)))
 
     def nearest(self, point: ArrayLike) -> tuple[float, float]:
         """Return the place closest to a point (2,), and its distance."""
         p = np.asarray(point, dtype=float)
         length, distance = nearest_length(self.polyline.points, self.lengths, p)
         return self.place_of(length), distance
+
+    @cached_property
+    def _places(self) -> Array:
+        return np.append(self.polyline.at, float(self.nodes))
+
+    def _on_node(self, at: float) -> float:
+        return float(round(at) if abs(at - round(at)) < NODE else at) % self.nodes
 
 
 @lru_cache(maxsize=256)

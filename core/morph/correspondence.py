@@ -9,7 +9,7 @@ import numpy as np
 
 from core.errors import MarkError, Where
 from core.geometry.places import tracks
-from core.geometry.polyline import arc_lengths, nearest_length, points_at, resample
+from core.geometry.polyline import arc_lengths, points_at, resample
 from core.geometry.validate import CleanOutline
 from core.model import Outline, RingPoint
 from core.model.outline import Array
@@ -67,14 +67,15 @@ def place_marks(
         for side, outline, place, end in zip(
             ("source", "target"), outlines, pair, ends, strict=True
         ):
-            point = tracks(outline)[place.ring].point_at(place.at)
-            ring = end.rings[place.ring]
-            length, distance = nearest_length(ring, arc_lengths(ring), point)
-            if distance > OFF_OUTLINE * end.diagonal:
+            track, ring = tracks(outline)[place.ring], end.rings[place.ring]
+            length = end.length_of(place.ring, track.vertex_of(place.at))
+            point = track.point_at(place.at)
+            away = points_at(ring, arc_lengths(ring), np.array([length]))[0] - point
+            if np.hypot(*away) > OFF_OUTLINE * end.diagonal:
                 raise MarkError(
                     f"Mark {labels[index]} lies on a part of the {side} that had to be cut off.",
                     where=Where(side, point=(float(point[0]), float(point[1])), marks=(index,)),
-                    hint="Move the mark, or mend the crossing edges there.",
+                    hint="Move the mark, or mend the outline there.",
                 )
             lengths.append(length)
         rings = pair[0].ring, pair[1].ring
@@ -99,9 +100,8 @@ def unplace_marks(
 
     def place(mark: ProposedMark, side: int) -> RingPoint:
         ring = mark.rings[side]
-        points = ends[side].rings[ring]
-        point = points_at(points, arc_lengths(points), np.array([mark.lengths[side]]))[0]
-        return RingPoint(ring, tracks(outlines[side])[ring].nearest(point)[0])
+        vertex = ends[side].vertex_of(ring, mark.lengths[side])
+        return RingPoint(ring, tracks(outlines[side])[ring].place_at_vertex(vertex))
 
     return tuple((place(mark, 0), place(mark, 1), mark.confidence) for mark in proposed)
 

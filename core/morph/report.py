@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from core.errors import Repair
 from core.model import RingPoint
 
 
@@ -50,7 +51,7 @@ class Report:
     iterations: tuple[Iteration, ...]
     mirror: bool
     """Whether the mirror image of the target would match the source far better."""
-    repairs: tuple[str, ...]
+    repairs: tuple[Repair, ...]
     """What was changed in the outlines so that they could be used."""
     stages: tuple[Stage, ...]
     """In order: how the map was found, and how its mesh was changed on the way."""

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from shapely import Polygon
 
 from core.errors import OutlineError
-from core.geometry.polyline import signed_area
+from core.geometry.polyline import arc_lengths, points_at, signed_area
 from core.geometry.validate import clean
 from tests.core.shapes import ellipse, letter_l, square_ring, star_shaped
 
@@ -28,7 +28,9 @@ def test_holes_run_against_the_exterior():
 def test_repeated_points_are_dropped_and_reported():
     result = clean([np.repeat(letter_l(), 2, axis=0)], "source")
     assert np.array_equal(result.rings[0], letter_l())
-    assert result.repairs == ("source outline: 6 repeated points dropped",)
+    (repair,) = result.repairs
+    assert str(repair) == "source outline: 6 repeated points dropped"
+    assert repair.moved == 0
 
 
 @pytest.mark.parametrize("number", [np.nan, np.inf])
@@ -64,18 +66,28 @@ def test_a_bow_tie_is_refused_where_it_crosses():
 
 
 def test_a_small_loop_is_cut_off_and_reported():
-    points = np.vstack([ellipse(60), [[2.05, 0.02], [2.05, -0.02]]])[::1]
     points = np.vstack([ellipse(60)[:30], [[-2.02, -0.02], [-2.02, 0.02]], ellipse(60)[30:]])
     result = clean([points], "source")
     assert Polygon(result.rings[0]).is_valid
-    assert "cut off" in result.repairs[0]
+    assert "cut off" in str(result.repairs[0])
     assert result.area == pytest.approx(signed_area(ellipse(60)), rel=0.01)
 
 
-def test_a_hole_outside_is_refused():
-    square, hole = square_ring()
-    with pytest.raises(OutlineError, match="rings"):
-        clean([square, hole + 10], "source")
+@pytest.mark.parametrize(
+    ("others", "what", "ring"),
+    [
+        ([ellipse(20) + 20], "Hole 1 of the source lies outside the outline", 1),
+        ([ellipse(20), ellipse(20) / 2], "Hole 2 of the source lies inside another hole", 2),
+        ([ellipse(20) + 9], "The outline crosses hole 1 of the source", 1),
+        ([ellipse(20), ellipse(20) + 1], "Hole 1 crosses hole 2 of the source", 2),
+    ],
+)
+def test_a_hole_in_the_wrong_place_is_refused_by_its_number(others, what, ring):
+    with pytest.raises(OutlineError, match=what) as caught:
+        clean([10 * square_ring()[0] / 2, *others], "source")
+    assert caught.value.where.ring == ring
+    assert caught.value.where.point is not None
+    assert caught.value.hint
 
 
 @pytest.mark.parametrize("order", [1, -1])
@@ -90,5 +102,23 @@ def test_a_repair_leaves_the_holes_in_their_order(order):
 
 
 def test_lines_drawn_to_and_fro_are_refused():
-    with pytest.raises(OutlineError, match="crosses itself"):
+    with pytest.raises(OutlineError, match="encloses no area"):
         clean([np.array([[1, 3], [2, 3], [1, 1], [3, 0], [1, 1], [2, 3]])], "source")
+
+
+def test_numbers_too_coarse_for_the_shape_are_refused_with_how_coarse_they_are():
+    clean([letter_l() + 2.0**32], "source")
+    with pytest.raises(OutlineError, match=r"numbers are 0\.1 apart"):
+        clean([letter_l() + 1e15], "source")
+
+
+@given(star_shaped(), st.integers(0, 30), st.booleans(), st.floats(0, 0.999))
+def test_a_place_is_at_the_arc_length_of_its_own_vertex(points, turn, backwards, fraction):
+    drawn = np.repeat(np.roll(points, turn, axis=0), 2, axis=0)[:: -1 if backwards else 1]
+    result = clean([drawn], "source")
+    lengths = arc_lengths(result.rings[0])
+    vertices = np.arange(len(drawn))
+    at = np.array([result.length_of(0, vertex) for vertex in vertices])
+    assert np.array_equal(points_at(result.rings[0], lengths, at), drawn)
+    length = fraction * lengths[-1]
+    assert result.length_of(0, result.vertex_of(0, length)) == pytest.approx(length, abs=1e-9)
