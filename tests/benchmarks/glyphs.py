@@ -11,7 +11,7 @@ from tests.benchmarks.pairs import Pair
 
 PAIRS = "S5 AR OD 8B ea cs WM 69 gq Kk 17 hn PF CG"
 """Different shapes with, in most fonts, equal numbers of holes."""
-SIZE = 200
+SIZE = 80
 """Pixels: curves are flattened to a fraction of one."""
 
 
