@@ -78,3 +78,11 @@ def test_pictures(tmp_path):
     small = "resources.FIRST_SAMPLE = 'letter-a-to-r'"
     run_window("pictures", "-o", str(tmp_path), settings=small, folder=tmp_path)
     assert {path.name for path in tmp_path.glob("*.png")} == {"strip.png", "window.png"}
+
+
+def test_responsiveness(shared_data, tmp_path):
+    small = ["--pairs", "horse-02", "--solves", "10", "--windows", "10"]
+    settings = "CANCELS = 1; command.SECONDS = 0.2"
+    text = run_window("responsiveness", *small, settings=settings, folder=tmp_path)
+    assert "its check" in text
+    assert "windows" in text
