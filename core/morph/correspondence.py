@@ -15,7 +15,7 @@ from core.model import Outline, RingPoint
 from core.model.outline import Array
 from core.morph.boundary import BoundaryPair, MatchedRing, correspond
 from core.morph.marks.holes import RingPair, paired_holes
-from core.morph.marks.rings import RingMatch, match_rings
+from core.morph.marks.rings import RingMatch, match_rings, mirror_is_better
 from core.morph.shift import SAMPLES, best_shift
 from core.progress import Watch, unwatched
 
@@ -51,6 +51,10 @@ class Correspondence:
     """Ring by ring."""
     proposed: tuple[ProposedMark, ...]
     """The marks that were set on the rings on which there were none."""
+    misfit: float = 0.0
+    """How ill the exteriors match: 0 is perfect, 1 is poor; 0 if the artist matched them."""
+    mirror: bool = False
+    """Whether the exterior would match the target's mirror image far better."""
 
 
 def place_marks(
@@ -117,39 +121,46 @@ def correspondences(
     """Yield boundaries that may belong together, the most likely first.
 
     With marks on the exterior they decide, and there is just one. The edges are split to the
-    exteriors' perimeters over ``density``. ``watch(stage)`` is called before every ring is matched
-    and may raise ``Cancelled``.
+    exteriors' perimeters over ``density``. ``watch(stage)`` is called between steps and may raise
+    ``Cancelled``.
     """
     spacing = tuple(float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
-    for matches in _matches(source, target, marks, watch):
+    for matching in _matchings(source, target, marks, watch):
         try:
             yield Correspondence(
-                [correspond(match.ring, (spacing[0], spacing[1]), labels) for match in matches],
-                tuple(mark for match in matches for mark in match.proposed),
+                [
+                    correspond(each.ring, (spacing[0], spacing[1]), labels)
+                    for each in matching.rings
+                ],
+                tuple(mark for each in matching.rings for mark in each.proposed),
+                matching.misfit,
+                matching.mirror,
             )
         except MarkError:
             if any(mark.rings[0] == 0 for mark in marks):
                 raise  # otherwise it was a proposal, and there are others
 
 
-def _matches(
+def _matchings(
     source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark], watch: Watch
-) -> Iterator[list[_Matched]]:
+) -> Iterator[_Matching]:
     exterior = [mark for mark in marks if mark.rings == (0, 0)]
     fixed = [mark.lengths for mark in exterior]
-    proposals: list[RingMatch] = []
+    found: list[RingMatch] = []
     if not exterior or len(source.rings) > 1:
-        watch("matching")
-        found = match_rings(source.rings[0], target.rings[0], fixed)
-        proposals = [match for match in found if not match.mirrored]
+        found = match_rings(source.rings[0], target.rings[0], fixed, watch=watch)
+    proposals = [match for match in found if not match.mirrored]
     if exterior:
-        first = proposals[0] if proposals else None
-        yield [_marked(source, target, exterior), *_holes(source, target, marks, first, watch)]
+        ring, first = _marked(source, target, exterior), next(iter(proposals), None)
+        yield _Matching([ring, *_holes(source, target, marks, first, watch)])
         return
+    mirror = mirror_is_better(found)
     for match in proposals:
-        first_ring = _proposed(source, target, RingPair(0, 0), *match.marks())
-        yield [first_ring, *_holes(source, target, marks, match, watch)]
-    yield [_shifted(source, target, RingPair(0, 0)), *_holes(source, target, marks, None, watch)]
+        ring = _proposed(source, target, RingPair(0, 0), *match.marks())
+        yield _Matching([ring, *_holes(source, target, marks, match, watch)], match.cost, mirror)
+    ring = _shifted(source, target, RingPair(0, 0))
+    misfit = max((match.cost for match in proposals), default=1.0)
+    yield _Matching([ring, *_holes(source, target, marks, None, watch)], misfit, mirror)
 
 
 def _holes(
@@ -162,7 +173,7 @@ def _holes(
     """Match the holes, each by its marks, or else by what the exterior's match says of it."""
     known = {mark.rings[0]: mark.rings[1] for mark in marks if mark.rings[0] > 0}
     if exterior is not None:
-        watch("matching")
+        watch("holes")
         pairs = paired_holes(source.rings, target.rings, exterior, known)
     else:
         free = iter(j for j in range(1, len(target.rings)) if j not in known.values())
@@ -173,9 +184,9 @@ def _holes(
         if here:
             matched.append(_marked(source, target, here))
             continue
-        watch("matching")
         a, b = source.rings[pair.source], target.rings[pair.target]
-        found = [match for match in match_rings(a, b, (), pair.rotation) if not match.mirrored]
+        matches = match_rings(a, b, (), pair.rotation, watch)
+        found = [match for match in matches if not match.mirrored]
         matched.append(
             _proposed(source, target, pair, *found[0].marks())
             if found
@@ -189,6 +200,13 @@ class _Matched:
     ring: MatchedRing
     proposed: tuple[ProposedMark, ...] = ()
     """Its marks, if the artist gave none."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Matching:
+    rings: list[_Matched]
+    misfit: float = 0.0
+    mirror: bool = False
 
 
 def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]) -> _Matched:

@@ -33,9 +33,6 @@ TRIANGLES_PER_BOUNDARY_VERTEX = 4
 COSTLY = 1.003
 """How many times the distortion wider angles may take before the energy is brought down again."""
 
-TURNING = 0.15
-"""What half a turn adds to the cost of a map, as a fraction of its distortion."""
-
 
 @dataclass(frozen=True, eq=False)
 class Map:
@@ -69,18 +66,18 @@ class Map:
     @property
     def mean(self) -> float:
         """Mean distortion by area: 1 is an isometry, infinite has a fold."""
-        return float(np.average(self.distortion, weights=self._elements.areas))
+        return self.bounded_mean(np.inf)
+
+    def bounded_mean(self, most: float) -> float:
+        """Mean distortion by area, no triangle counting for more than ``most``."""
+        bounded = np.minimum(self.distortion, most)
+        return float(np.average(bounded, weights=self._elements.areas))
 
     @property
     def turn(self) -> float:
         """How far the shape turns as a whole, in (-π, π]."""
         turn, _ = turn_and_mirror(self._elements.deformation_gradients(self.target))
         return float(np.angle(self._elements.areas @ turn))
-
-    @property
-    def cost(self) -> float:
-        """Mean distortion, and a little for turning: a shape is not turned for nothing."""
-        return self.mean * (1 + TURNING * abs(self.turn) / np.pi)
 
     @cached_property
     def _elements(self) -> Elements:

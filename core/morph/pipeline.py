@@ -2,44 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from itertools import islice
 from time import perf_counter
-from typing import Self
 
 import numpy as np
 
 from core.errors import SolveError, Where
 from core.geometry.flatten import flatten
 from core.geometry.triangulation import Indices
-from core.geometry.validate import CleanOutline, clean
+from core.geometry.validate import CleanOutline, check_together, clean
 from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
-from core.morph.correspondence import (
-    Correspondence,
-    correspondences,
-    place_marks,
-    unplace_marks,
-)
-from core.morph.mapping import Map, direct_map, mended_map
+from core.morph.correspondence import correspondences, place_marks, unplace_marks
+from core.morph.mapping import Map
 from core.morph.morph import Morph
 from core.morph.motion.motion import Motion
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report, Stage
-from core.morph.suggest import mirror_matches_better
+from core.morph.rivals import GOOD, Frame, choose
 from core.progress import Progress, Watch, silent
-
-GOOD = 1.3
-"""Mean distortion below which a proposed correspondence needs no rival."""
-UPRIGHT = np.pi / 3
-"""Turn of the whole shape above which a rival that turns less is looked for."""
-MEDIOCRE = 2.0
-"""Mean distortion above which all proposals are mended before the best is chosen."""
-MOST_TRIED = 4
-"""Proposed correspondences that are compared."""
 
 
 def solve_outlines(
@@ -64,14 +48,14 @@ def solve_outlines(
     clock = _Clock(progress)
     clock.start("outlines", 0.0)
     ends = _cleaned(source, "source"), _cleaned(target, "target")
+    check_together(ends)
     _check_rings(*ends)
     placed = place_marks((source, target), ends, marks, labels)
     clock.start("mapping", 0.1)
     rivals = correspondences(*ends, placed, labels, recipe.density, clock.watch)
-    here, there = frames = _Frame.of(ends[0]), _Frame.of(ends[1])
-    taken, found, tried = _best(rivals, frames, recipe, clock.watch)
-    guessed = not any(mark.rings == (0, 0) for mark in placed)
-    mirror = guessed and found.mean > GOOD and mirror_matches_better(*(e.rings[0] for e in ends))
+    here, there = frames = Frame.of(ends[0]), Frame.of(ends[1])
+    choice = choose(rivals, frames, recipe, clock.watch)
+    taken, found = choice.taken, choice.map
     clock.start("in-between", 0.9)
     mesh, b = found.mesh, found.mesh.boundary_size
     rest, goal = here.outside(mesh.points), there.outside(found.target)
@@ -89,67 +73,13 @@ def solve_outlines(
         distortion_worst=float(found.distortion.max()),
         smallest_angle=min(smallest_angle(p, mesh.triangles) for p in (mesh.points, found.target)),
         iterations=found.iterations,
-        stages=_stages(clock, ends, found, tried, recipe),
-        tried=tried,
-        mirror=mirror,
+        stages=_stages(clock, ends, found, choice.tried, recipe),
+        tried=choice.tried,
+        mirror=taken.mirror and found.mean > GOOD,
         repairs=ends[0].repairs + ends[1].repairs,
         proposed=unplace_marks(taken.proposed, (source, target), ends),
     )
     return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, here.origin, here.unit)
-
-
-@dataclass(frozen=True, eq=False)
-class _Frame:
-    """An end's own coordinates: at unit area, tolerances and energies mean the same for all."""
-
-    origin: Array
-    unit: float
-
-    @classmethod
-    def of(cls, end: CleanOutline) -> Self:
-        return cls(end.rings[0].mean(axis=0), float(np.sqrt(end.area)))
-
-    def inside(self, points: Array) -> Array:
-        return (points - self.origin) / self.unit
-
-    def outside(self, points: Array) -> Array:
-        return self.origin + self.unit * points
-
-
-def _best(
-    rivals: Iterable[Correspondence],
-    frames: tuple[_Frame, _Frame],
-    recipe: Recipe,
-    watch: Watch,
-) -> tuple[Correspondence, Map, int]:
-    """Return the correspondence with the best map, that map, and how many were tried."""
-    watch("matching")
-    tried: list[tuple[Correspondence, Map]] = []
-    for rival in islice(rivals, MOST_TRIED):
-        tried.append((rival, direct_map(*_inside(rival, frames), recipe, watch)))
-        if tried[-1][1].mean < GOOD and abs(tried[-1][1].turn) < UPRIGHT:
-            break
-    if not tried:
-        raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
-    best = min(tried, key=_cost)
-    mended = [
-        (rival, mended_map(found, *_inside(rival, frames), recipe, watch))
-        for rival, found in (tried if best[1].mean > MEDIOCRE else [best])
-    ]
-    return *min(mended, key=_cost), len(tried)
-
-
-def _cost(pair: tuple[Correspondence, Map]) -> float:
-    return pair[1].cost
-
-
-def _inside(
-    rival: Correspondence, frames: tuple[_Frame, _Frame]
-) -> tuple[list[Array], list[Array]]:
-    return (
-        [frames[0].inside(pair.source) for pair in rival.boundaries],
-        [frames[1].inside(pair.target) for pair in rival.boundaries],
-    )
 
 
 def _inbetween(

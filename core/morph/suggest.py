@@ -16,51 +16,6 @@ from core.morph.marks.rings import RingMatch, match_rings
 
 Marks = Sequence[tuple[RingPoint, RingPoint]]
 
-FAR_BETTER, BETTER = 0.7, 0.05
-"""A mirrored match is offered when it costs less than this part of the best other one, and is
-cheaper by that much."""
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """One way in which two rings may belong together, as the marks that it takes."""
-
-    source: Array
-    """(j,) increasing arc lengths on the source."""
-    target: Array
-    """(j,) where they belong on the target."""
-    confidence: Array
-    """(j,) in [0, 1]: high at corners that are alike, low along smooth arcs."""
-    cost: float
-    """How ill the rings match: 0 is perfect, 1 is poor."""
-    mirrored: bool
-    """Whether it takes the mirror image of the target: the marks run round it backwards."""
-
-
-def suggest_marks(
-    source: Array, target: Array, fixed: Sequence[Pair] = (), rotation: complex | None = None
-) -> list[Candidate]:
-    """Propose marks for two rings (n, 2) and (k, 2), in ways that differ as wholes, the best first.
-
-    ``fixed`` are pairs of arc lengths that the artist has set: proposals only fill the gaps between
-    them. Where they contradict each other's order, the earlier ones count. ``rotation`` (of length
-    one) is that of the source, if it is known. A mirrored candidate is among them only if it
-    matches far better. Rings that enclose nothing have no candidates. Start vertex, direction,
-    place, size and density of vertices do not matter.
-    """
-    matches = match_rings(source, target, fixed, rotation)
-    plain = min((match.cost for match in matches if not match.mirrored), default=0.0)
-    return [
-        Candidate(*match.marks(), match.cost, match.mirrored)
-        for match in matches
-        if not match.mirrored or match.cost < min(FAR_BETTER * plain, plain - BETTER)
-    ]
-
-
-def mirror_matches_better(source: Array, target: Array) -> bool:
-    """Whether the mirror image of the target ring (k, 2) matches the source (n, 2) far better."""
-    return any(candidate.mirrored for candidate in suggest_marks(source, target))
-
 
 @dataclass(frozen=True, eq=False)
 class OutlineMatch:

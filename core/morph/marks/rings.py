@@ -21,6 +21,8 @@ AT = 1e-6
 """A place this near to a corner, as a fraction of the perimeter, is the corner."""
 CONFIRMED = 1e-3
 """Pairs this near to a match, as a fraction of the perimeter, lie on it."""
+FAR_BETTER, BETTER = 0.7, 0.05
+"""A mirrored match is far better if it costs less than this part of the others, and by so much."""
 DRAWN = 0.03
 """How far the mate of a corner without partner may be drawn to a corner like it."""
 
@@ -134,6 +136,13 @@ def match_rings(
         there = b.mirrored() if match.mirrored else b
         found.append(RingMatch(a, there, perimeters, Route.of(a, there, match, pairs)))
     return found
+
+
+def mirror_is_better(matches: Sequence[RingMatch]) -> bool:
+    """Whether one that is mirrored matches far better than all that are not."""
+    plain = min((match.cost for match in matches if not match.mirrored), default=0.0)
+    mirrored = min((match.cost for match in matches if match.mirrored), default=np.inf)
+    return mirrored < min(FAR_BETTER * plain, plain - BETTER)
 
 
 def _pairs(

@@ -13,8 +13,9 @@ from core.geometry.places import tracks
 from core.geometry.polyline import arc_lengths
 from core.model import Outline, RingPoint
 from core.model.outline import Ring
+from core.morph.marks.rings import match_rings, mirror_is_better
 from core.morph.pipeline import solve_outlines
-from core.morph.suggest import mate, snap, suggest_for, suggest_marks
+from core.morph.suggest import mate, snap, suggest_for
 from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, star_shaped
 
 SEEN = {
@@ -39,7 +40,8 @@ def turns(values):
 
 
 def best(source, target, fixed=()):
-    return next(c for c in suggest_marks(source, target, fixed) if not c.mirrored)
+    """The best match that is not mirrored."""
+    return next(match for match in match_rings(source, target, fixed) if not match.mirrored)
 
 
 # -- what belongs together -----------------------------------------------------------------------
@@ -60,11 +62,9 @@ def test_the_corners_of_a_shape_are_mated_with_themselves():
 
 
 def test_a_mirror_is_offered_for_a_mirrored_shape_only():
-    mirrored = suggest_marks(letter_l(), letter_l() * [-1, 1])[0]
-    assert mirrored.mirrored
-    assert turns(mirrored.target[::-1]) == 1
+    assert mirror_is_better(match_rings(letter_l(), letter_l() * [-1, 1]))
     for ring in (letter_l(), limb(1.0), comb(4), ellipse(60)):
-        assert not any(c.mirrored for c in suggest_marks(ring, ring @ rotation(1.0).T))
+        assert not mirror_is_better(match_rings(ring, ring @ rotation(1.0).T))
 
 
 @pytest.mark.parametrize("name", ["horse", "bird", "crown", "teddy", "watch"])
@@ -81,18 +81,19 @@ def test_real_shapes_map_without_folds_and_with_little_distortion(real, name):
 @given(star_shaped(), star_shaped())
 @settings(max_examples=20, deadline=None)
 def test_marks_run_in_the_same_order_around_both(source, target):
-    for candidate in suggest_marks(source, target):
-        there = candidate.target[::-1] if candidate.mirrored else candidate.target
-        assert (np.diff(candidate.source) > 0).all()
+    for match in match_rings(source, target):
+        here, there, confidence = match.marks()
+        there = there[::-1] if match.mirrored else there
+        assert (np.diff(here) > 0).all()
         assert len(there) == 1 or turns(there) == 1
-        assert ((candidate.confidence >= 0) & (candidate.confidence <= 1)).all()
+        assert ((confidence >= 0) & (confidence <= 1)).all()
 
 
-def test_candidates_differ_and_the_best_is_first(real):
-    candidates = suggest_marks(real("flower6", 0), real("flower6", 1))
-    assert len(candidates) > 1
-    assert candidates[0].cost <= min(c.cost for c in candidates) + 0.02
-    there = [np.interp(0, c.source - c.source[0], c.target) for c in candidates]
+def test_matches_differ_and_the_best_is_first(real):
+    found = match_rings(real("flower6", 0), real("flower6", 1))
+    assert len(found) > 1
+    assert found[0].cost <= min(match.cost for match in found) + 0.02
+    there = [float(match.images(np.zeros(1))[0]) for match in found]
     assert all(a != b for a, b in pairwise(there))
 
 
@@ -105,12 +106,15 @@ def test_marks_lie_on_corners_where_both_have_them():
 
 
 def test_corners_are_surer_than_smooth_arcs():
-    assert best(letter_l(), letter_l()).confidence.max() > 0.8
-    assert best(ellipse(80, 1, 1), ellipse(60, 1, 1)).confidence.max() < 0.1
+    _, _, corners = best(letter_l(), letter_l()).marks()
+    _, _, arcs = best(ellipse(80, 1, 1), ellipse(60, 1, 1)).marks()
+    assert corners.max() > 0.8
+    assert arcs.max() < 0.1
 
 
 def test_few_marks_suffice_where_lengths_tell_the_rest():
-    assert len(best(letter_l(), 3 * letter_l()).source) == 1
+    here, _, _ = best(letter_l(), 3 * letter_l()).marks()
+    assert len(here) == 1
 
 
 def test_an_edge_that_takes_another_share_of_the_length_gets_marks_at_its_ends():
@@ -127,9 +131,10 @@ def test_an_edge_that_takes_another_share_of_the_length_gets_marks_at_its_ends()
 def test_marks_that_are_set_are_kept_and_never_crossed(source, target, shares):
     lengths = arc_lengths(source)[-1], arc_lengths(target)[-1]
     fixed = [(k / 40 * lengths[0], (0.02 * k + 0.1) * lengths[1]) for k in shares]
-    for candidate in suggest_marks(source, target, fixed):
-        marks = sorted([*fixed, *zip(candidate.source, candidate.target, strict=True)])
-        assert not candidate.mirrored
+    for match in match_rings(source, target, fixed):
+        here, there, _ = match.marks()
+        marks = sorted([*fixed, *zip(here, there, strict=True)])
+        assert not match.mirrored
         assert len(marks) == 1 or turns(np.array(marks)[:, 1]) == 1
         assert len({s for s, _ in marks}) == len(marks)
 

@@ -1,0 +1,132 @@
+"""Which of several correspondences is taken: the one that distorts least, among those that fit.
+
+Distortion alone would turn a tree upside down for a little less of it. So a map also costs more the
+further it turns the shape, and the less the outlines that it joins are alike where it joins them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from core.errors import SolveError
+from core.geometry.validate import CleanOutline
+from core.model import Recipe
+from core.model.outline import Array
+from core.morph.correspondence import Correspondence
+from core.morph.mapping import Map, direct_map, mended_map
+from core.progress import Watch
+
+GOOD = 1.3
+"""Mean distortion that is as little as can be expected of a rival."""
+TURNING = 0.4
+"""What half a turn adds to the cost of a map, as a fraction of it."""
+ALIKE = 0.05
+"""Misfit below which correspondences hardly differ. Above, twice the misfit costs √2 times more."""
+MENDABLE = 100.0
+"""What a triangle counts at most: mending will put right what is worse, or folded."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """An end's own coordinates: at unit area, tolerances and energies mean the same for all."""
+
+    origin: Array
+    unit: float
+
+    @classmethod
+    def of(cls, end: CleanOutline) -> Self:
+        """Take the coordinates of an outline."""
+        return cls(end.rings[0].mean(axis=0), float(np.sqrt(end.area)))
+
+    def inside(self, points: Array) -> Array:
+        """Return points (n, 2) in these coordinates."""
+        return (points - self.origin) / self.unit
+
+    def outside(self, points: Array) -> Array:
+        """Return points (n, 2) as they were drawn."""
+        return self.origin + self.unit * points
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """The correspondence that was taken, and its map."""
+
+    taken: Correspondence
+    map: Map
+    tried: int
+    """How many correspondences got a map."""
+
+
+def choose(
+    rivals: Iterable[Correspondence], frames: tuple[Frame, Frame], recipe: Recipe, watch: Watch
+) -> Choice:
+    """Map the correspondences that may be the best one, and mend the map of the one that is.
+
+    ``rivals`` come the most likely first. ``watch(stage)`` is called between steps and may raise
+    ``Cancelled``. Raises ``SolveError`` if there is no rival.
+    """
+    tried: list[_Tried] = []
+    for rival in rivals:
+        ends = _inside(rival, frames)
+        doubt = _doubt(rival, tried[0].rival if tried else rival)
+        if tried and _cost(GOOD, _turn(*ends), doubt) >= min(each.cost for each in tried):
+            continue
+        tried.append(_Tried(rival, ends, doubt, direct_map(*ends, recipe, watch)))
+    if not tried:
+        raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
+    tried.sort(key=lambda each: each.cost)
+    best = tried[0].mended(recipe, watch)
+    for other in tried[1:]:
+        if best.full_cost <= other.cost:
+            break
+        best = min(best, other.mended(recipe, watch), key=lambda each: each.full_cost)
+    return Choice(best.rival, best.map, len(tried))
+
+
+Rings = list[Array]
+
+
+@dataclass(frozen=True, eq=False)
+class _Tried:
+    rival: Correspondence
+    ends: tuple[Rings, Rings]
+    doubt: float
+    map: Map
+
+    @property
+    def cost(self) -> float:
+        """What is left after mending, as far as one can tell before."""
+        return _cost(self.map.bounded_mean(MENDABLE), self.map.turn, self.doubt)
+
+    @property
+    def full_cost(self) -> float:
+        return _cost(self.map.mean, self.map.turn, self.doubt)
+
+    def mended(self, recipe: Recipe, watch: Watch) -> _Tried:
+        found = mended_map(self.map, *self.ends, recipe, watch)
+        return _Tried(self.rival, self.ends, self.doubt, found)
+
+
+def _cost(distortion: float, turn: float, doubt: float) -> float:
+    return distortion * (1 + TURNING * abs(turn) / np.pi) * doubt
+
+
+def _doubt(rival: Correspondence, likeliest: Correspondence) -> float:
+    return float(np.sqrt((ALIKE + rival.misfit) / (ALIKE + likeliest.misfit)))
+
+
+def _turn(source: Rings, target: Rings) -> float:
+    """How far the exterior turns as a whole, in (-π, π]."""
+    here, there = (ends[0] @ [1, 1j] for ends in (source, target))
+    return float(np.angle(np.vdot(here - here.mean(), there - there.mean())))
+
+
+def _inside(rival: Correspondence, frames: tuple[Frame, Frame]) -> tuple[Rings, Rings]:
+    return (
+        [frames[0].inside(pair.source) for pair in rival.boundaries],
+        [frames[1].inside(pair.target) for pair in rival.boundaries],
+    )
