@@ -1,8 +1,9 @@
-"""What went wrong, in the message bar and on the canvas, with the button that mends it."""
+"""What went wrong or was repaired, in the message bar and on the canvas, with what mends it."""
 
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
 
@@ -10,13 +11,19 @@ from app.canvas.canvas import Canvas
 from app.files.files import Files
 from app.panels.messages import Action, MessageBar
 from app.workspace import Workspace
-from core.errors import FileError, MarkError, MorphError, OutlineError, Where
+from core.errors import FileError, MarkError, MorphError, OutlineError, Repair, Trouble, Where
 from core.model import Layer
 from core.model.edits import remove_marks, replace_outline
 from core.morph.scene import Span, span_of
 
+if TYPE_CHECKING:
+    from core.morph.morph import Morph
+
 Key = tuple[int, int]
 """Layer id and span index."""
+
+UNSEEN = 1e-8
+"""A repair that moved less than this fraction of an outline is not worth a word."""
 
 
 class Reporter(QObject):
@@ -30,12 +37,15 @@ class Reporter(QObject):
         self._dismissed: MorphError | None = None
         self._offered: Span | None = None
         """The span whose target was offered to be mirrored last."""
+        self._told: set[tuple[int, int]] = set()
+        """Keyframes (layer id, index) of which it was told that they were repaired."""
         self._passing = False
         """Whether what is on show goes with the next change."""
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._follow_solver)
         workspace.session.failed.connect(self.show_refusal)
         workspace.session.changed.connect(self._on_changed)
+        workspace.session.replaced.connect(self._on_replaced)
         workspace.solver.updated.connect(self._follow_soon)
         workspace.selection.changed.connect(self._follow_soon)
         files.failed.connect(self.show_refusal)
@@ -72,7 +82,10 @@ class Reporter(QObject):
     def _on_changed(self) -> None:
         if self._passing:
             self._clear()
-            self._follow_soon()
+        self._follow_soon()
+
+    def _on_replaced(self) -> None:
+        self._told.clear()
 
     def _follow_soon(self) -> None:
         self._soon.start()
@@ -83,7 +96,7 @@ class Reporter(QObject):
             return
         key = self._most_pressing()
         error = None if key is None else self._workspace.solver.errors[key]
-        if error is None:
+        if error is None and not self._tell_repairs():
             self._offer_mirror()
         if error is self._shown:
             return
@@ -116,15 +129,41 @@ class Reporter(QObject):
         self._bar.clear()
         self._canvas.clear_error()
 
-    def _offer_mirror(self) -> None:
-        """Offer the mirrored target once, where it would match far better."""
+    def _solved(self) -> tuple[Layer, int, Morph] | None:
+        """Return what is solved under the playhead: layer, span index and solution."""
         layer = self._workspace.selection.layer
         if layer is None or not layer.spans or self._workspace.session.dragging:
-            return
+            return None
         index = layer.span_at(self._workspace.playhead.frame)[0]
+        morph = self._workspace.solver.solutions().get(span_of(layer, index))
+        return None if morph is None else (layer, index, morph)
+
+    def _tell_repairs(self) -> bool:
+        """Tell of each keyframe once, while it lasts, that it had to be repaired, and where."""
+        if (solved := self._solved()) is None:
+            return False
+        layer, index, morph = solved
+        for at, side in ((index, "source"), (index + 1, "target")):
+            key = layer.id, at
+            repairs = [r for r in morph.report.repairs if r.where.side == side and r.moved > UNSEEN]
+            if not repairs:
+                self._told.discard(key)
+            elif key not in self._told:
+                self._told.add(key)
+                text = self.tr("{repairs} What you drew is kept as it is.")
+                show = self.tr("Show place"), partial(self._show_place, repairs[0], (key[0], index))
+                self.note(text.format(repairs=" ".join(map(str, repairs))), show)
+                self._canvas.show_error(repairs[0])
+                return True
+        return False
+
+    def _offer_mirror(self) -> None:
+        """Offer the mirrored target once, where it would match far better."""
+        if (solved := self._solved()) is None:
+            return
+        layer, index, morph = solved
         span = span_of(layer, index)
-        morph = self._workspace.solver.solutions().get(span)
-        if morph is None or not morph.report.mirror or span == self._offered:
+        if not morph.report.mirror or span == self._offered:
             return
         self._offered = span
         self.note(
@@ -157,8 +196,8 @@ class Reporter(QObject):
     def _remove_mark(self, layer_id: int, mark: int, text: str) -> None:
         self._workspace.session.apply(text, remove_marks, layer_id, [mark])
 
-    def _show_place(self, error: MorphError, key: Key) -> None:
-        """Go to the keyframe that is wrong, with the tool that can mend it."""
+    def _show_place(self, error: Trouble, key: Key) -> None:
+        """Go to the keyframe that is or was wrong, with the tool that can mend it."""
         layer_id, index = key
         keyframes = self._workspace.session.document.layer(layer_id).keyframes
         at = index + (error.where.side == "target")
@@ -169,7 +208,7 @@ class Reporter(QObject):
             self._workspace.playhead.move_to(first)
         if isinstance(error, MarkError):
             self._canvas.set_tool("marks")
-        elif isinstance(error, OutlineError):
+        elif isinstance(error, OutlineError | Repair):
             self._canvas.set_tool("nodes")
         self._canvas.fit()
         self._canvas.show_error(error)

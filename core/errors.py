@@ -37,15 +37,17 @@ class Where:
 
 @dataclass(frozen=True)
 class Repair:
-    """A fault that was mended instead of refused."""
+    """A fault that was mended instead of refused: what, how and where."""
 
     what: str
+    how: str
     where: Where
     moved: float
     """How far the outline is now from what was drawn, as a fraction of its diagonal."""
 
     def __str__(self) -> str:
-        return self.what
+        near = " near ({:.4g}, {:.4g})".format(*self.where.point) if self.where.point else ""
+        return f"{self.what}{near}: {self.how}."
 
 
 class MorphError(Exception):
@@ -85,3 +87,7 @@ class EditError(MorphError):
 
 class Cancelled(Exception):  # noqa: N818 - a request that was met, not an error
     """The work was stopped on request."""
+
+
+Trouble = MorphError | Repair
+"""What is wrong with an input, or was."""

@@ -22,7 +22,7 @@ from app.canvas.tools.select import SelectTool
 from app.canvas.tools.tool import ARROWS, Command, Tool
 from app.canvas.tools.transform_box import TransformBox
 from app.workspace import Workspace
-from core.errors import MorphError
+from core.errors import Trouble
 
 SIDE_BY_SIDE = (Role.SOURCE, Role.IN_BETWEEN, Role.TARGET)
 SHARES = {Role.SOURCE: 4, Role.IN_BETWEEN: 5, Role.TARGET: 4, Role.OVERLAY: 1}
@@ -51,7 +51,7 @@ class Canvas(QWidget):
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._workspace = workspace
-        self._error: MorphError | None = None
+        self._error: Trouble | None = None
         self._hint = ""
         self._seen: tuple[Tool, object] | None = None
         self.camera = Camera(self)
@@ -135,8 +135,8 @@ class Canvas(QWidget):
 
     # -- errors --------------------------------------------------------------------------------
 
-    def show_error(self, error: MorphError) -> None:
-        """Highlight the place of an error."""
+    def show_error(self, error: Trouble) -> None:
+        """Highlight the place of an error, or of a repair."""
         self._error = error
         self.refresh()
         self._pulse.start()

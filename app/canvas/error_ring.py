@@ -1,4 +1,4 @@
-"""The place of an error: a bold ring that pulses when it appears, with a word about it."""
+"""The place of a trouble: a bold ring that pulses when it appears, with a word about it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from app.canvas.ink import draw_ring, draw_tag
 from app.canvas.overlay import Overlay
 from app.canvas.view import View
 from app.style import colours
-from core.errors import Where
+from core.errors import Repair, Trouble, Where
 from core.model import Keyframe
 from core.model.outline import Array
 
@@ -26,11 +26,14 @@ class ErrorRing(Overlay):
         super().__init__(view)
         self._points = np.empty((0, 2))
         self._text = ""
+        self._colour = colours().error
         self._pulse = 0.0
 
-    def show_error(self, points: Array, text: str) -> None:
+    def show_error(self, points: Array, trouble: Trouble) -> None:
         """Ring (k, 2) document points; none hides it."""
-        self._points, self._text = points, text
+        self._points, self._text = points, trouble.what
+        mended = isinstance(trouble, Repair)
+        self._colour = colours().accent if mended else colours().error
         self.setVisible(len(points) > 0)
         self.update()
 
@@ -44,16 +47,16 @@ class ErrorRing(Overlay):
         centres = self.view.to_screen(self._points)
         radius = RADIUS + SWELL * self._pulse
         for centre in centres:
-            draw_ring(painter, centre, radius, colours().error, 3.5)
-            draw_ring(painter, centre, 2.0, colours().error, 2.0)
+            draw_ring(painter, centre, radius, self._colour, 3.5)
+            draw_ring(painter, centre, 2.0, self._colour, 2.0)
         if self._text and len(centres):
             x, y = centres[np.argmax(centres[:, 1])]
             below = QPointF(x, y + RADIUS + SWELL + 12)
-            draw_tag(painter, below, self._text, colours().error, "#ffffff")
+            draw_tag(painter, below, self._text, self._colour, "#ffffff")
 
 
 def places_of(where: Where, keyframe: Keyframe) -> Array:
-    """Return (k, 2) document points of an error's place on a keyframe."""
+    """Return (k, 2) document points of a trouble's place on a keyframe."""
     outline = keyframe.outline
     points = [outline.position(keyframe.marks[m]) for m in where.marks if m < len(keyframe.marks)]
     if where.point is not None:

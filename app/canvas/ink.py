@@ -19,6 +19,8 @@ from core.model.outline import Array
 HALO = QColor("#ffffff")
 NODE = 4.0
 """Half the side of a node's square, in pixels."""
+TAG_WIDTH = 320
+"""Pixels beyond which a tag breaks into lines."""
 
 
 def pen(
@@ -120,19 +122,22 @@ def draw_ring(painter: QPainter, at: Array, radius: float, colour: str, width: f
 
 
 def draw_tag(painter: QPainter, at: QPointF, text: str, ground: str, ink: str) -> None:
-    """Draw a line of text on a rounded ground, centred on a point and kept inside the view."""
+    """Draw text on a rounded ground, its first line on a point, and kept inside the view."""
     font = QFont(painter.font())
     font.setBold(True)
     metrics = QFontMetricsF(font)
     view = QRectF(painter.viewport()).adjusted(6, 6, -6, -6)
-    words = metrics.elidedText(text, Qt.TextElideMode.ElideRight, view.width() - 20)
-    box = QRectF(0, 0, metrics.horizontalAdvance(words) + 16, metrics.height() + 6)
+    flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+    room = QRectF(0, 0, min(view.width(), TAG_WIDTH) - 20, view.height())
+    box = metrics.boundingRect(room, flags, text).adjusted(-8, -3, 8, 3)
     box.moveCenter(at)
+    box.moveTop(at.y() - metrics.height() / 2 - 3)
     box.moveLeft(min(max(box.left(), view.left()), view.right() - box.width()))
     box.moveTop(min(max(box.top(), view.top()), view.bottom() - box.height()))
     painter.setFont(font)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(QColor(ground))
-    painter.drawRoundedRect(box, box.height() / 2, box.height() / 2)
+    corner = metrics.height() / 2 + 3
+    painter.drawRoundedRect(box, corner, corner)
     painter.setPen(QColor(ink))
-    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, words)
+    painter.drawText(box, flags, text)

@@ -24,7 +24,7 @@ from app.canvas.view import View
 from app.jobs.solver import SpanState
 from app.style import colours
 from app.workspace import Workspace
-from core.errors import MorphError
+from core.errors import Trouble
 from core.model import Keyframe
 from core.morph.scene import picture_at
 
@@ -126,7 +126,7 @@ class Pane(QWidget):
 
     # -- what the canvas shows -----------------------------------------------------------------
 
-    def look(self, moment: Moment, error: MorphError | None) -> None:
+    def look(self, moment: Moment, error: Trouble | None) -> None:
         """Show a moment, and the place of an error if there is one."""
         self._name(moment)
         self._board.show_board(moment.document.size, moment.document.background)
@@ -202,13 +202,13 @@ class Pane(QWidget):
             marks = pins_on_key(layer.keyframes[keys[0]])
         self._suggestions.show_suggestions(self.suggested, marks)
 
-    def _show_error(self, moment: Moment, error: MorphError | None) -> None:
+    def _show_error(self, moment: Moment, error: Trouble | None) -> None:
         keyframe = self.keyframe
         side = error.where.side if error else ""
         if error is None or keyframe is None or (side and side != self._side(moment)):
-            self.error_ring.show_error(NO_PINS.places, "")
+            self.error_ring.hide()
         else:
-            self.error_ring.show_error(places_of(error.where, keyframe), error.what)
+            self.error_ring.show_error(places_of(error.where, keyframe), error)
 
     def _show_trouble(self, moment: Moment) -> None:
         playing = self._workspace.playhead.playing

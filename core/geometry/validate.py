@@ -166,6 +166,20 @@ def _size(rings: Sequence[Array], side: str) -> float:
     return size
 
 
+def check_together(ends: Sequence[CleanOutline]) -> None:
+    """Refuse outlines of which one is too small beside where the other lies: in-betweens of it
+    could not be told from each other.
+    """
+    far = max(float(np.abs(end.rings[0]).max()) for end in ends)
+    small = min(end.diagonal for end in ends)
+    if np.spacing(far) > COARSEST * small:
+        raise OutlineError(
+            f"One outline is {small:.3g} wide, and the other reaches to {far:.3g}, where numbers"
+            f" are {np.spacing(far):.1g} apart: too coarse for frames between them.",
+            hint="Make them more alike in size, and move them closer to the origin.",
+        )
+
+
 def _distinct(
     ring: Array, size: float, side: str, index: int, repairs: list[Repair]
 ) -> NDArray[np.int64]:
@@ -184,8 +198,9 @@ def _distinct(
     if repeated.any():
         repairs.append(
             Repair(
-                f"{name}: {repeated.sum()} repeated points dropped",
-                Where(side, index, point=_point(ring[repeated])),
+                f"The {name} has {repeated.sum()} repeated points",
+                "left out",
+                Where(side, index),
                 float(length[repeated].max()) / size,
             )
         )
@@ -234,15 +249,14 @@ def _told(
     share = 100 * mended.lost / abs(signed_area(after[0]))
     told = []
     for places, what, end in (
-        (mended.touches, "edges that touch", f"opened by {mended.hair * unit.size:.2g}"),
-        (mended.spikes, "a spike without area", "cut off"),
-        (mended.loops, "crossing edges", f"cut off ({share:.2g} % of the area)"),
+        (mended.touches, "touches itself", f"opened by {mended.hair * unit.size:.2g} there"),
+        (mended.spikes, "has a spike without area", "cut off there"),
+        (mended.loops, "crosses itself", f"a loop of {share:.2g} % of the area cut off there"),
     ):
         if len(places):
-            x, y = unit.place(places[0])
-            more = f" and at {len(places) - 1} more" if len(places) > 1 else ""
-            text = f"{side}: {what} near ({x:.4g}, {y:.4g}){more} {end}"
-            told.append(Repair(text, Where(side, point=(x, y)), moved))
+            more = f" and in {len(places) - 1} more" if len(places) > 1 else ""
+            where = Where(side, point=unit.place(places[0]))
+            told.append(Repair(f"The {side} {what}", f"{end}{more}", where, moved))
     return told
 
 

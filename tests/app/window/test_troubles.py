@@ -95,6 +95,44 @@ def test_a_closed_message_stays_closed_until_something_else_is_wrong(
     qtbot.waitUntil(lambda: bool(window.messages.text))
 
 
+SPIKED = Outline.polygon(
+    [(200, 100), (400, 100), (400, 300), (300, 300), (300, 350), (300, 300), (200, 300)]
+)
+
+
+def test_a_repair_is_told_once_with_its_place_and_leaves_what_was_drawn(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    session, ring = window.workspace.session, window.canvas.panes[Role.TARGET].error_ring
+    session.replace(Document((Layer(1, "card", (Keyframe(1, SQUARE), Keyframe(25, SPIKED))),)))
+    qtbot.waitUntil(lambda: "has a spike without area near (300, 350)" in window.messages.text)
+    assert ring.isVisible()
+    assert not window.canvas.panes[Role.SOURCE].error_ring.isVisible()
+    assert session.document.layers[0].keyframes[1].outline == SPIKED
+    session.apply("Move", move_nodes, 1, 1, 0, [0], (-10, 0))
+    assert not window.messages.text
+    qtbot.waitUntil(lambda: window.workspace.solver.state(1, 0) is SpanState.SOLVED)
+    qtbot.wait(1)
+    assert not window.messages.text
+    session.apply("Open", move_nodes, 1, 1, 0, [5], (-20, 0))
+    qtbot.waitUntil(lambda: window.workspace.solver.state(1, 0) is SpanState.SOLVED)
+    qtbot.wait(1)
+    assert not window.messages.text
+    press(window, "Ctrl+Z")
+    qtbot.waitUntil(lambda: "spike" in window.messages.text)
+
+
+def test_show_place_of_a_repair_goes_there_with_the_nodes_tool(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    keys = Keyframe(1, SPIKED), Keyframe(25, SQUARE)
+    window.workspace.session.replace(Document((Layer(1, "card", keys),)))
+    qtbot.waitUntil(lambda: "Show place" in mends(window))
+    QTest.mouseClick(mends(window)["Show place"], LEFT)
+    assert window.canvas.tool == "nodes"
+    assert window.workspace.selection.key == 0
+
+
 def test_a_refused_edit_is_told_and_the_next_one_takes_the_message_away(
     window: MainWindow,
 ) -> None:

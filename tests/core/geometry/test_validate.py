@@ -6,7 +6,7 @@ from shapely import Polygon
 
 from core.errors import OutlineError
 from core.geometry.polyline import arc_lengths, points_at, signed_area
-from core.geometry.validate import clean
+from core.geometry.validate import check_together, clean
 from tests.core.shapes import ellipse, letter_l, square_ring, star_shaped
 
 
@@ -29,7 +29,7 @@ def test_repeated_points_are_dropped_and_reported():
     result = clean([np.repeat(letter_l(), 2, axis=0)], "source")
     assert np.array_equal(result.rings[0], letter_l())
     (repair,) = result.repairs
-    assert str(repair) == "source outline: 6 repeated points dropped"
+    assert str(repair) == "The source outline has 6 repeated points: left out."
     assert repair.moved == 0
 
 
@@ -122,3 +122,11 @@ def test_a_place_is_at_the_arc_length_of_its_own_vertex(points, turn, backwards,
     assert np.array_equal(points_at(result.rings[0], lengths, at), drawn)
     length = fraction * lengths[-1]
     assert result.length_of(0, result.vertex_of(0, length)) == pytest.approx(length, abs=1e-9)
+
+
+def test_an_outline_too_small_beside_where_the_other_lies_is_refused():
+    small, far = clean([1e-6 * letter_l()], "source"), clean([letter_l() + 1e6], "target")
+    check_together([small, small])
+    check_together([far, far])
+    with pytest.raises(OutlineError, match="too coarse for frames between them"):
+        check_together([small, far])

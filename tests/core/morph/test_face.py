@@ -126,8 +126,8 @@ def test_the_history_of_energy_and_folds_is_kept():
 
 
 def test_repairs_are_reported():
-    report = core.solve(np.repeat(ellipse(), 2, axis=0), letter_l()).report
-    assert tuple(map(str, report.repairs)) == ("source outline: 40 repeated points dropped",)
+    (repair,) = core.solve(np.repeat(ellipse(), 2, axis=0), letter_l()).report.repairs
+    assert str(repair) == "The source outline has 40 repeated points: left out."
 
 
 def test_a_comb_against_a_square_keeps_both_outlines():
