@@ -23,15 +23,16 @@ from core.model.outline import Array
 from core.morph.compatible.cleanup import coarsen, improve
 from core.morph.compatible.joint import JointMesh
 from core.morph.compatible.overlay import compatible_mesh
-from core.morph.compatible.widening import widen
+from core.morph.compatible.widening import FAIR, widen
 from core.morph.placement import place, settle
 from core.morph.quality import distortion
 from core.morph.report import Iteration, Stage
 from core.progress import Watch
 
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
-COSTLY = 1.003
-"""How many times the distortion wider angles may take before the energy is brought down again."""
+SLIGHTLY, COSTLY = 1.003, 1.03
+"""How many times the distortion wider angles may take before the energy is brought down again, and
+after that."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +53,14 @@ class Map:
         """Measure the map that takes a mesh to target positions (n, 2)."""
         spread = distortion(Elements.of(mesh.points, mesh.triangles), target)
         return cls(mesh, target, spread, iterations)
+
+    def on(self, joint: JointMesh) -> Map:
+        """Measure the same map on a mesh that was changed at both ends."""
+        return Map.of(*joint.apart(self.mesh.rings), self.iterations)
+
+    def joint(self) -> JointMesh:
+        """Return the mesh at both ends."""
+        return JointMesh.of(self.mesh, self.target)
 
     @property
     def folds(self) -> int:
@@ -110,7 +119,10 @@ def mended_map(
     The rings are those it was made of. A map without faults is returned as it is.
     """
     sound = direct if direct.sound else _refitted(direct, source, target, recipe, watch)
-    return _widened(sound, recipe, watch)
+    wide = _widened(sound, watch)
+    if direct.sound and wide.mean <= SLIGHTLY * direct.mean:
+        return wide
+    return _polished(wide, recipe, watch)
 
 
 def _refitted(
@@ -121,26 +133,34 @@ def _refitted(
     mesh, image = coarsen(*compatible_mesh(source, target, watch), watch)
     log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
     mesh, image = improve(mesh, image, _max_area(recipe), watch)
-    settled = settle(mesh, image, recipe, watch)
-    found = Map.of(mesh, settled.target, direct.iterations + settled.iterations)
+    found = Map.of(mesh, image, direct.iterations)
     return log.map("clean-up", found, f"{len(mesh.triangles)} triangles")
 
 
-def _widened(found: Map, recipe: Recipe, watch: Watch) -> Map:
-    """Return the map on a mesh with wider angles, hardly more distorted."""
-    before = JointMesh.of(found.mesh, found.target)
-    joint = widen(before, watch)
-    if joint is before:
-        return found
+def _widened(found: Map, watch: Watch) -> Map:
+    """Return a map with wider angles, whatever they cost."""
     log = _Log(found.stages)
-    wide = Map.of(*joint.apart(found.mesh.rings), found.iterations)
-    if wide.mean > COSTLY * found.mean:
-        settled = settle(wide.mesh, wide.target, recipe, watch)
-        joint = widen(JointMesh.of(wide.mesh, settled.target), watch)
-        wide = Map.of(*joint.apart(found.mesh.rings), found.iterations + settled.iterations)
-    change = len(joint.triangles) - len(before.triangles)
-    quality = f"worst quality {before.worse.min():.3f} to {joint.worse.min():.3f}"
-    return log.map("angles", wide, f"{change:+} triangles, {quality}")
+    before = found.joint()
+    after = widen(before, watch=watch)
+    if after is before:
+        return found
+    change = len(after.triangles) - len(before.triangles)
+    quality = f"worst quality {before.worse.min():.3f} to {after.worse.min():.3f}"
+    return log.map("angles", found.on(after), f"{change:+} triangles, {quality}")
+
+
+def _polished(found: Map, recipe: Recipe, watch: Watch) -> Map:
+    """Return a map at the minimum of the energy, its angles as wide as is cheap there."""
+    log = _Log(found.stages)
+    settled = settle(found.mesh, found.target, recipe, watch)
+    found = Map.of(found.mesh, settled.target, found.iterations + settled.iterations)
+    dearest = COSTLY * found.mean
+    for aim in (0.1, 0.2, FAIR):
+        wider = found.on(widen(found.joint(), aim, watch))
+        if wider.mean > dearest:
+            break
+        found = wider
+    return log.map("polish", found, f"worst quality {found.joint().worse.min():.3f}")
 
 
 def _max_area(recipe: Recipe) -> float:

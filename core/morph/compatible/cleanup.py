@@ -21,7 +21,7 @@ from core.morph.compatible.smoothing import smooth
 from core.progress import Watch, unwatched
 
 COARSENINGS = 12
-ROUNDS, RELAX_STEPS = 3, 2
+ROUNDS, RELAX_STEPS = 2, 2
 POOR = 0.3
 """Around triangles of less quality, any removal that does not harm is welcome."""
 POOREST = 0.2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.morph.compatible.joint import JointMesh, quality, worse_end
 
@@ -10,19 +11,26 @@ GAIN = 0.02
 """A flip must improve by this fraction, so that flipping ends."""
 
 
-def flip(mesh: JointMesh, passes: int) -> JointMesh:
-    """Flip edges until nothing improves, at most ``passes`` times over all edges."""
+def flip(mesh: JointMesh, passes: int, below: float = np.inf) -> JointMesh:
+    """Flip edges until nothing improves, at most ``passes`` times over all that may.
+
+    It starts at triangles of less quality than ``below``, and goes on from those that it changed.
+    """
+    unsettled = mesh.worse < below
     for _ in range(passes):
-        flipped = _flip_once(mesh)
-        if flipped is mesh:
+        mesh, unsettled = _flip_once(mesh, unsettled)
+        if not unsettled.any():
             break
-        mesh = flipped
     return mesh
 
 
-def _flip_once(mesh: JointMesh) -> JointMesh:
-    """Flip all edges that improve and that no better flip beside them forbids."""
-    first, second = mesh.twins.T
+def _flip_once(
+    mesh: JointMesh, unsettled: NDArray[np.bool_]
+) -> tuple[JointMesh, NDArray[np.bool_]]:
+    """Flip all edges beside ``unsettled`` triangles (m,) that improve and that no better flip next
+    to them forbids. Returns the triangles (m,) that this leaves unsettled, too.
+    """
+    first, second = mesh.twins[unsettled[mesh.twins // 3].any(axis=1)].T
     u, v = mesh.tail[first], mesh.head[first]
     left, right = mesh.apex[first], mesh.apex[second]
     before = np.minimum(mesh.worse[first // 3], mesh.worse[second // 3])
@@ -31,8 +39,9 @@ def _flip_once(mesh: JointMesh) -> JointMesh:
     gain = after - before
     # a flip that is not convex at an end gives a negative triangle there, and is no gain
     wanted = np.flatnonzero(gain > GAIN * before)
+    unsettled = np.zeros(len(mesh.triangles), bool)
     if not len(wanted):
-        return mesh
+        return mesh, unsettled
     wanted = wanted[np.argsort(-gain[wanted], kind="stable")]
     one, other = first[wanted] // 3, second[wanted] // 3
     rank = np.arange(len(wanted))
@@ -43,4 +52,5 @@ def _flip_once(mesh: JointMesh) -> JointMesh:
     triangles = mesh.triangles.copy()
     triangles[one[free]] = near_u[wanted[free]]
     triangles[other[free]] = near_v[wanted[free]]
-    return mesh.rewired(triangles)
+    unsettled[one] = unsettled[other] = True
+    return mesh.rewired(triangles), unsettled

@@ -14,25 +14,25 @@ from core.progress import Watch, unwatched
 FAIR = 0.31
 """Quality that is aimed at. The best triangle with a smallest angle α has √3 sin α / (2 − cos α),
 so no angle is below 10.4° then."""
-ROUNDS, PASSES = 3, 4
+ROUNDS, PASSES = 2, 4
 
 
-def widen(mesh: JointMesh, watch: Watch = unwatched) -> JointMesh:
-    """Return a mesh whose triangles are fair at both ends, or the best that was found.
+def widen(mesh: JointMesh, aim: float = FAIR, watch: Watch = unwatched) -> JointMesh:
+    """Return a mesh whose triangles all have the quality aimed at, or the best that was found.
 
-    A fair mesh is returned as it is. Where flips and nudges do not suffice, vertices are taken out,
-    and then long edges split. ``watch(stage)`` is called before every round and may raise
-    ``Cancelled``.
+    A mesh that has it is returned as it is. Where flips and nudges do not suffice, vertices are
+    taken out, and then long edges split. ``watch(stage)`` is called before every round and may
+    raise ``Cancelled``.
     """
     best = mesh
     for _ in range(ROUNDS):
         for change in (_tended, _thinned):
-            if _worst(best) >= FAIR:
+            if _worst(best) >= aim:
                 return best
             watch("angles")
-            mesh = change(mesh)
+            mesh = change(mesh, aim)
             best = max(best, mesh, key=_worst)
-        mesh = _split(mesh)
+        mesh = _split(mesh, aim)
     return best
 
 
@@ -40,21 +40,22 @@ def _worst(mesh: JointMesh) -> float:
     return float(mesh.worse.min())
 
 
-def _tended(mesh: JointMesh) -> JointMesh:
-    return flip(nudge(flip(mesh, passes=3), FAIR, PASSES), passes=2)
+def _tended(mesh: JointMesh, aim: float) -> JointMesh:
+    return flip(nudge(flip(mesh, 3, below=aim), aim, PASSES), 2, below=aim)
 
 
-def _thinned(mesh: JointMesh) -> JointMesh:
+def _thinned(mesh: JointMesh, aim: float) -> JointMesh:
     """Take vertices out around poor triangles, where that leaves nothing worse."""
-    poor = mesh.worst_around(mesh.worse)[mesh.tail] < FAIR
-    return nudge(flip(remove(mesh, poor, np.full(len(poor), np.inf)), passes=2), FAIR, PASSES)
+    poor = mesh.worst_around(mesh.worse)[mesh.tail] < aim
+    thinner = remove(mesh, poor, np.full(len(poor), np.inf))
+    return nudge(flip(thinner, 2, below=aim), aim, PASSES)
 
 
-def _split(mesh: JointMesh) -> JointMesh:
+def _split(mesh: JointMesh, aim: float) -> JointMesh:
     """Split the longest inner edge of each poor triangle."""
     edges, sides, count = unique_edges(mesh.triangles)
     length = np.where(count == 2, mesh.lengths(*edges.T), 0)
-    poor = sides[mesh.worse < FAIR]
+    poor = sides[mesh.worse < aim]
     longest = np.take_along_axis(poor, length[poor].argmax(axis=1)[:, None], axis=1)
     chosen = np.zeros(len(edges), bool)
     chosen[longest] = True

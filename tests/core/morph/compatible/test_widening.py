@@ -64,7 +64,7 @@ def test_widening_can_be_cancelled() -> None:
         raise Cancelled
 
     with pytest.raises(Cancelled):
-        widen(squeezed(), cancel)
+        widen(squeezed(), watch=cancel)
 
 
 @pytest.mark.parametrize("name", PAIRS)
