@@ -175,6 +175,23 @@ def adjacent_triangles(triangles: Indices) -> Indices:
     return (shared // 3).reshape(-1, 2)
 
 
+def boundary_rings(triangles: Indices) -> list[Indices]:
+    """Return the rings of vertices (k,) around triangles (m, 3), with the inside to their left."""
+    tail, head = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    n = int(triangles.max()) + 1
+    single = ~np.isin(tail * n + head, head * n + tail)
+    after = dict(zip(tail[single].tolist(), head[single].tolist(), strict=True))
+    rings = []
+    while after:
+        start, following = after.popitem()
+        ring = [start]
+        while following != start:
+            ring.append(following)
+            following = after.pop(following)
+        rings.append(np.array(ring))
+    return rings
+
+
 def _split(points: Points, triangles: Indices, middle: Indices) -> Indices:
     """Cut triangles at the midpoints of their edges; ``middle`` (m, 3) holds -1 for uncut ones."""
     cuts = (middle >= 0).sum(axis=1)

@@ -1,7 +1,6 @@
 """Isotropic energy densities of a triangle, one a file, as functions of its singular values."""
 
 from core.fem.energies.density import Density, Derivatives
-from core.fem.energies.fold_barrier import FoldBarrier
 from core.fem.energies.foldover_free import FoldoverFree
 from core.fem.energies.st_venant_kirchhoff import StVenantKirchhoff
 from core.fem.energies.symmetric_dirichlet import SymmetricDirichlet
@@ -9,7 +8,6 @@ from core.fem.energies.symmetric_dirichlet import SymmetricDirichlet
 __all__ = [
     "Density",
     "Derivatives",
-    "FoldBarrier",
     "FoldoverFree",
     "StVenantKirchhoff",
     "SymmetricDirichlet",

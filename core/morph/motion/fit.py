@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 from scipy.sparse import bsr_array, csr_array
 
@@ -48,8 +50,7 @@ class GradientFit:
         unit = np.zeros((self._load.shape[0], len(vertices)))
         unit[vertices, np.arange(len(vertices))] = 1
         compliance = self.solve(unit)[vertices]
-        inverse: Array = np.linalg.inv((compliance + compliance.T) / 2)
-        return inverse
+        return cast(Array, np.linalg.inv((compliance + compliance.T) / 2))
 
 
 def _load_operator(elements: Elements, weights: Array) -> csr_array:

@@ -81,10 +81,3 @@ def determinant(B: Complex) -> Array:
     """Return det B (m,) of turns and mirrors (2, m)."""
     squares = B.real**2 + B.imag**2
     return squares[0] - squares[1]
-
-
-def matrices(B: Complex) -> Array:
-    """Return turns and mirrors (2, m) as matrices (m, 2, 2)."""
-    turn, mirror = B
-    rows = [turn + mirror, 1j * (turn - mirror)]
-    return np.stack([np.stack([row.real, row.imag], -1) for row in rows], -1)

@@ -1,80 +1,92 @@
-"""Frames without folds: the fit of ideal gradients, held back where a triangle nears a fold."""
+"""Triangles that near a fold: their areas are gaps that must not close."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from core.fem.elements import Elements, determinants
-from core.fem.energies.fold_barrier import FoldBarrier
-from core.fem.newton import (
-    PAIRS,
-    FreeVertices,
-    Terms,
-    backtrack,
-    density_terms,
-    energy,
-    safe_length,
-    step_of,
-)
+from core.fem.elements import Elements
 from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.gradients import determinant, matrices
+from core.morph.motion.barrier import Derivatives
 
+REACH = 0.3
+"""Fraction of a triangle's ideal area below which the guard is felt."""
 STIFFNESS = 0.1
-CONVERGED = 1e-13
-"""Newton decrement at which a frame is done, at unit area."""
-MAX_STEPS = 60
+SHORT_OF_FLAT = 0.9
+"""Fraction of the way to the first flat triangle that a step may go."""
+
+AREA_BEND = np.kron([[0, 1, -1], [-1, 0, 1], [1, -1, 0]], [[0, 1], [-1, 0]]) / 2
+"""(6, 6) second derivative of a triangle's area by its corners' coordinates."""
 
 
 class FoldGuard:
-    """Minimises Σ tr((F − B) M (F − B)ᵀ) + w det B b(det F / det B) over positions.
+    """Weighs folds against the fit: Σ w det B b(det F / (REACH · det B)), the ideal being B.
 
-    The barrier b is felt only close to a fold: elsewhere the minimum is
-    the plain fit's, so frames run into each other smoothly and both ends stay exact.
+    It is felt only close to a fold: elsewhere frames are the plain fit's.
     """
 
-    def __init__(self, before: Elements, after: Elements, weights: Array) -> None:
-        """Prepare for rest and target elements and the fit's weights M (m, 2, 2)."""
-        self._elements, self._weights = before, weights
-        self._areas = (before.areas + after.areas) / 2
-        self._vertices = FreeVertices(before, np.arange(1, before.vertices))
-        grams = 2 * before.gradients @ weights @ before.gradients.transpose(0, 2, 1)
-        full = np.zeros((len(weights), 3, 2, 3, 2))
-        full[:, :, [0, 1], :, [0, 1]] = grams
-        rows, columns = PAIRS
-        self._hessian = full.reshape(-1, 6, 6)[:, rows, columns].T
+    def __init__(self, before: Elements, after: Elements) -> None:
+        """Prepare for rest and target elements."""
+        self.triangles, self._areas = before.triangles, before.areas
+        self._weights = STIFFNESS * (before.areas + after.areas) / 2
 
-    def margin(self, x: Array, ideal: Complex) -> float:
-        """Return the smallest det F / det B: a fold is 0 or less."""
-        F = self._elements.deformation_gradients(x)
-        return float((determinants(F) / determinant(ideal)).min())
+    def margins(self, z: Complex, ideal: Array) -> Array:
+        """Return det F / det B (m,) at positions z (n,), for ideal determinants (m,)."""
+        return _areas(z[self.triangles.T]) / (self._areas * ideal)
 
-    def __call__(self, ideal: Complex, start: Array) -> Array:
-        """Return positions (n, 2) for ideal gradients B (2, m), from a start without folds."""
-        J, B = determinant(ideal), matrices(ideal)
-        stiffness = STIFFNESS * self._areas / self._elements.areas * J
-        density = FoldBarrier(J, stiffness)
+    def gaps(self, which: Indices, vertices: Indices, ideal: Array) -> TriangleGaps:
+        """Return some triangles as gaps between the vertices held, which come in order."""
+        corners = np.searchsorted(vertices, self.triangles[which])
+        weights, felt = self._weights * ideal, REACH * self._areas * ideal
+        return TriangleGaps(corners, weights[which], felt[which])
 
-        def total(y: Array) -> float:
-            return self._misfit(y, B)[0] + energy(self._elements, density, y)
 
-        x = start
-        for _ in range(MAX_STEPS):
-            misfit, gradient = self._misfit(x, B)
-            near = density_terms(self._elements, density, x)
-            terms = Terms(
-                misfit + near.energy, gradient + near.gradient, self._hessian + near.hessian
-            )
-            step = step_of(self._vertices, terms)
-            if -step.slope < CONVERGED:
-                break
-            x, _ = backtrack(total, x, step, safe_length(self._elements, x, step))
-        return x
+@dataclass(frozen=True, eq=False)
+class TriangleGaps:
+    """Areas of triangles, in units of those below which they are felt."""
 
-    def _misfit(self, x: Array, ideal: Array) -> tuple[float, Array]:
-        """Return Σ tr((F − B) M (F − B)ᵀ) and its gradient (6, m)."""
-        off = self._elements.deformation_gradients(x) - ideal
-        weighted = off @ self._weights
-        value = float(np.einsum("mij,mij->", weighted, off))
-        corners = 2 * self._elements.gradients @ weighted.transpose(0, 2, 1)
-        return value, corners.reshape(-1, 6).T
+    corners: Indices
+    weights: Array
+    felt: Array
+    """(c,) areas."""
+
+    def __call__(self, z: Complex) -> Array:
+        """Return the gaps (c,) at positions z (k,)."""
+        return _areas(z[self.corners.T]) / self.felt
+
+    def derivatives(self, z: Complex, which: Indices) -> Derivatives:
+        """Return some of the gaps with their derivatives."""
+        corners, felt = z[self.corners[which]], self.felt[which]
+        opposite = np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1)
+        slopes = (-0.5j * opposite / felt[:, None]).view(float)
+        return Derivatives(_areas(corners.T) / felt, slopes, AREA_BEND / felt[:, None, None])
+
+    def free_way(self, z: Complex, step: Complex) -> float:
+        """Return a part of a step that stops short of the first flat triangle."""
+        times = times_of_flatness(z[self.corners.T], step[self.corners.T])
+        return SHORT_OF_FLAT * float(times[times > 0].min(initial=np.inf))
+
+
+def times_of_flatness(corners: Complex, step: Complex) -> Array:
+    """Return (2, c) when triangles (3, c) that take a step are flat, not finite where never."""
+    (p, q), (dp, dq) = _edges(corners), _edges(step)
+    a, b, c = _cross(dp, dq), _cross(p, dq) + _cross(dp, q), _cross(p, q)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = -(b + np.copysign(np.sqrt(b * b - 4 * a * c), b)) / 2  # so that nothing cancels
+        return np.stack([half / a, c / half])
+
+
+def _areas(corners: Complex) -> Array:
+    """Return signed areas (c,) of triangles (3, c)."""
+    return _cross(*_edges(corners)) / 2
+
+
+def _edges(corners: Complex) -> tuple[Complex, Complex]:
+    return corners[1] - corners[0], corners[2] - corners[0]
+
+
+def _cross(p: Complex, q: Complex) -> Array:
+    return p.real * q.imag - p.imag * q.real

@@ -12,7 +12,7 @@ import numpy as np
 from core.fem.elements import Elements
 from core.fem.newton import factorise
 from core.geometry.rotation import Complex
-from core.geometry.triangulation import Indices
+from core.geometry.triangulation import Indices, boundary_rings
 from core.model.outline import Array
 from core.progress import Watch, unwatched
 
@@ -97,23 +97,6 @@ class _Extension:
             solved = self._factor.solve(-np.column_stack([load.real, load.imag]))
             z[self._inner] = _complex(solved)
         return z
-
-
-def boundary_rings(triangles: Indices) -> list[Indices]:
-    """Return the rings of vertices (k,) around triangles (m, 3), with the inside to their left."""
-    tail, head = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    n = int(triangles.max()) + 1
-    single = ~np.isin(tail * n + head, head * n + tail)
-    after = dict(zip(tail[single].tolist(), head[single].tolist(), strict=True))
-    rings = []
-    while after:
-        start, following = after.popitem()
-        ring = [start]
-        while following != start:
-            ring.append(following)
-            following = after.pop(following)
-        rings.append(np.array(ring))
-    return rings
 
 
 def _complex(points: Array) -> Complex:

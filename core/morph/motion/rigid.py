@@ -8,8 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from core.fem.elements import Elements
-from core.geometry.triangulation import Indices
+from core.geometry.triangulation import Indices, boundary_rings
 from core.model.outline import Array
+from core.morph.motion.contact import Contact
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import IdealGradients, LinearStretch, LogStretch
 from core.morph.motion.guard import FoldGuard
@@ -36,8 +37,8 @@ class PlainRigid:
 
 
 class Rigid:
-    """Both ends count alike: S grows as Sᵗ, deviations weigh as seen from either end, and no
-    triangle folds.
+    """Both ends count alike: S grows as Sᵗ, deviations weigh as seen from either end, no
+    triangle folds and no boundary crosses itself.
 
     The weights average the normal equations of both directions (Baxter et al. 2008), M = ½ (A_s I +
     A_t F⁻¹F⁻ᵀ). Of all weights and paths tried on real pairs, these fold the fewest frames. Needs
@@ -60,8 +61,10 @@ class Rigid:
         self.turn, self.exponent = even.turn, Exponent.of(F, even.theta)
         self.ideal: Ideal = even if rates is BY_ITSELF else PassingGradients(self.exponent, *rates)
         self.fit = GradientFit(before, weights)
-        guard = FoldGuard(before, after, weights)
-        self._frames = SoundFrames(self.ideal, self.fit, guard, rest, watch)
+        ends = (end[:, 0] + 1j * end[:, 1] for end in (rest, target))
+        contact = Contact(boundary_rings(triangles), *ends)
+        guard = FoldGuard(before, after)
+        self._frames = SoundFrames(self.ideal, self.fit, guard, contact, watch)
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t, wherever they lie."""

@@ -4,7 +4,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.fem.energies import (
-    FoldBarrier,
     FoldoverFree,
     StVenantKirchhoff,
     SymmetricDirichlet,
@@ -14,7 +13,6 @@ DENSITIES = [
     StVenantKirchhoff(1.3, 0.7),
     SymmetricDirichlet(),
     FoldoverFree(0.1),
-    FoldBarrier(np.array([8.0]), np.array([0.7])),
 ]
 singular = st.tuples(st.floats(0.3, 3), st.floats(0.1, 1)).map(lambda p: (p[0], p[0] * p[1]))
 
@@ -60,16 +58,6 @@ def test_a_flat_triangle_costs_infinitely_only_under_a_barrier():
     assert np.isinf(SymmetricDirichlet().value(one, -one))
     assert np.isfinite(StVenantKirchhoff().value(one, flat))
     assert np.isfinite(FoldoverFree(0.1).value(one, -one))
-
-
-def test_the_fold_barrier_is_felt_only_near_a_fold():
-    barrier = FoldBarrier(np.array([2.0]), np.array([1.0]))
-    one = np.ones(1)
-    assert barrier.value(one, 0.61 * one) == 0  # 0.305 of the ideal area
-    assert barrier.value(one, 0.5 * one) > 0
-    assert np.isinf(barrier.value(one, -one))
-    d = barrier.derivatives(one, 0.61 * one)
-    assert not np.any([d.d1, d.d2, d.d11, d.d12, d.d22])
 
 
 def test_the_papers_material_cannot_tell_a_mirrored_triangle_at_lambda_zero():

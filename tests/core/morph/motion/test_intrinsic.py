@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 import core
 from core.geometry.polyline import signed_area
-from core.geometry.triangulation import triangulate
-from core.morph.motion.intrinsic import Intrinsic, boundary_rings
+from core.geometry.triangulation import boundary_rings, triangulate
+from core.morph.motion.intrinsic import Intrinsic
 from tests.core.shapes import limb, rotation, square_ring, star_shaped
 
 TIMES = [0.0, 0.15, 0.4, 0.5, 0.8, 1.0]

@@ -1,0 +1,125 @@
+"""Gaps that must not close, and positions that keep them open while straying least."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, cast
+
+import numpy as np
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
+
+from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+
+ARMIJO = 1e-4
+HALVINGS = 30
+MAX_STEPS = 60
+REGULARISATION = 1e-10
+"""Added to a Hessian's diagonal where it is not definite, relative to its largest entry."""
+CONVERGED = 1e-12
+"""Newton decrement below which one more step settles positions, at unit area."""
+
+
+@dataclass(frozen=True, eq=False)
+class Derivatives:
+    """How gaps change with the three corners each depends on."""
+
+    gaps: Array
+    """(c,)"""
+    slopes: Array
+    """(c, 6) by the corners' coordinates."""
+    bends: Array
+    """(c, 6, 6) second derivatives."""
+
+
+class Gaps(Protocol):
+    """Gaps of one kind, in units of the gap below which they are felt: closed at 0."""
+
+    @property
+    def corners(self) -> Indices:
+        """(c, 3) the vertices on which each depends, numbered among those that are held."""
+
+    @property
+    def weights(self) -> Array:
+        """(c,) how much the barrier of each counts; below 0 where others count it twice."""
+
+    def __call__(self, z: Complex) -> Array:
+        """Return the gaps (c,) at positions z (k,)."""
+
+    def derivatives(self, z: Complex, which: Indices) -> Derivatives:
+        """Return some of the gaps with their derivatives."""
+
+    def free_way(self, z: Complex, step: Complex) -> float:
+        """Return a part of a step within which no gap closes."""
+        ...
+
+
+def settle(fitted: Complex, stiffness: Array, kinds: Sequence[Gaps], start: Complex) -> Complex:
+    """Minimise (z − fitted)ᴴ K (z − fitted) + Σ w b(u(z)) from a start (k,) with open gaps.
+
+    The barrier b is felt below a gap of 1 and infinite at 0 (Li et al. 2020, "Incremental potential
+    contact"). A step is Newton's where the energy is convex, Gauss and Newton's where it is not.
+    """
+    pull = cast(Array, 2 * np.kron(stiffness, np.eye(2)))
+
+    def energy(z: Complex) -> float:
+        off = z - fitted
+        misfit = float(np.vdot(off, stiffness @ off).real)
+        return misfit + sum(float(kind.weights @ barrier(kind(z))) for kind in kinds)
+
+    z, value = start, energy(start)
+    for _ in range(MAX_STEPS):
+        gradient, hessian, convex = pull @ (z - fitted).view(float), pull.copy(), pull.copy()
+        for kind in kinds:
+            _add(kind, z, gradient, hessian, convex)
+        direction = -_solve(hessian, convex, gradient)
+        step, slope = direction.view(complex), float(gradient @ direction)
+        length = min([1.0, *(kind.free_way(z, step) for kind in kinds)])
+        if -slope < CONVERGED:
+            return z + length * step
+        for _ in range(HALVINGS):
+            reached = energy(z + length * step)
+            if reached <= value + ARMIJO * length * slope:
+                break
+            length /= 2
+        else:
+            return z
+        z, value = z + length * step, reached
+    return z
+
+
+def barrier(u: Array) -> Array:
+    """Return b(u) = −(u − 1)² ln u for gaps u (c,): 0 above 1, infinite at 0 and below."""
+    inside = np.clip(u, 1e-300, 1)
+    return np.where(u > 0, -((inside - 1) ** 2) * np.log(inside), np.inf)
+
+
+def _add(kind: Gaps, z: Complex, gradient: Array, hessian: Array, convex: Array) -> None:
+    """Add gradient and Hessian of Σ w b(u), and the Hessian's part that is never negative."""
+    felt = np.flatnonzero(kind(z) < 1)
+    if not len(felt):
+        return
+    at, weights, size = kind.derivatives(z, felt), kind.weights[felt], len(gradient)
+    u, log = at.gaps, np.log(at.gaps)
+    slope = -weights * (2 * (u - 1) * log + (u - 1) ** 2 / u)
+    bend = -weights * (2 * log + 4 * (u - 1) / u - (u - 1) ** 2 / u**2)
+    unknown = (2 * kind.corners[felt][:, :, None] + [0, 1]).reshape(-1, 6)
+    place = (unknown[:, :, None] * size + unknown[:, None]).ravel()
+    squares = bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None]
+    gradient += np.bincount(unknown.ravel(), (slope[:, None] * at.slopes).ravel(), size)
+    for matrix, blocks in (
+        (hessian, squares + slope[:, None, None] * at.bends),
+        (convex, np.maximum(np.sign(weights), 0)[:, None, None] * squares),
+    ):
+        matrix += np.bincount(place, blocks.ravel(), size * size).reshape(size, size)
+
+
+def _solve(hessian: Array, convex: Array, gradient: Array) -> Array:
+    try:
+        factor = cho_factor(hessian, check_finite=False)
+    except LinAlgError:
+        convex[np.diag_indices_from(convex)] += REGULARISATION * convex.diagonal().max()
+        factor = cho_factor(convex, check_finite=False)
+    return cast(Array, cho_solve(factor, gradient, check_finite=False))

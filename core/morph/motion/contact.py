@@ -1,0 +1,208 @@
+"""A boundary that nears itself: distances of its vertices from its edges are gaps, too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+from shapely import Polygon
+
+from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+from core.morph.motion.barrier import Derivatives
+from core.morph.motion.guard import times_of_flatness
+
+REACH = 0.01
+"""Largest distance at which contact is felt, at unit area."""
+STIFFNESS = 0.1
+SHARP, FLAT = 0.2, 0.2
+"""Turn of the boundary at a vertex that counts in full, in radians, and what a straight one counts:
+boundaries meet corner first, and then slide along without catching on the vertices between."""
+SHORT_OF_TOUCH = 0.9
+"""Fraction of the way to the first meeting that a step may go."""
+BOWED = 1.2
+"""How much longer the way of a vertex may be than straight, between moments that are looked at."""
+TINY = 1e-100
+
+
+class Contact:
+    """Pairs of a boundary vertex and a boundary edge, kept apart.
+
+    A pair's reach is at most half its smaller distance at both ends, so that neither end feels any.
+    A pair's number is the vertex's place on the boundary times the boundary's length, plus the
+    edge's place.
+    """
+
+    def __init__(self, rings: Sequence[Indices], rest: Complex, target: Complex) -> None:
+        """Prepare for rings of vertex indices and positions (n,) at both ends."""
+        self._ends = rest, target
+        self._rings = sorted(rings, key=lambda ring: -np.ptp(rest[ring].real))  # exterior first
+        self._starts = np.concatenate(self._rings)
+        sizes = [len(ring) for ring in self._rings]
+        places = np.split(np.arange(sum(sizes)), np.cumsum(sizes)[:-1])
+        self._next = np.concatenate([np.roll(place, -1) for place in places])
+        self._stops = self._starts[self._next]
+        self._weights = STIFFNESS / 2 * (self._sharpness(rest) + self._sharpness(target))
+
+    def crosses(self, z: Complex) -> bool:
+        """Whether the boundary crosses itself at positions z (n,)."""
+        rings = [z[ring].view(float).reshape(-1, 2) for ring in self._rings]
+        return not Polygon(rings[0], rings[1:]).is_valid
+
+    def corners(self, pairs: Indices) -> Indices:
+        """Return (c, 3): each pair's vertex and both ends of its edge."""
+        vertex, edge = np.divmod(pairs, len(self._starts))
+        return np.column_stack([self._starts[vertex], self._starts[edge], self._stops[edge]])
+
+    def near(self, z: Complex, within: float, among: Indices | None = None) -> Indices:
+        """Return the pairs with a gap below ``within`` at positions z (n,), in order."""
+        pairs = self._neighbours(z, within * REACH) if among is None else among
+        corners = self.corners(pairs)
+        distance = _distances(z[corners.T])
+        close = distance < within * REACH
+        return pairs[close][distance[close] < within * self._reach(corners[close])]
+
+    def meeting(self, here: Complex, there: Complex) -> Indices:
+        """Return the pairs that may be felt on the way between two frames (n,).
+
+        Seen from its edge, a vertex is taken to move about straight.
+        """
+        way = _aligned(there, here) - here
+        radius = REACH + BOWED * np.abs(way[self._starts]).max()
+        pairs = self._neighbours(here + way / 2, radius)
+        corners = self.corners(pairs)
+        closing = np.abs(_seen_from_edges(there[corners.T]) - _seen_from_edges(here[corners.T]))
+        apart = _distances(here[corners.T]) + _distances(there[corners.T])
+        least: Array = apart - BOWED * closing.max(axis=0)
+        close = least < 2 * REACH
+        return pairs[close][least[close] < 2 * self._reach(corners[close])]
+
+    def gaps(self, pairs: Indices, vertices: Indices) -> Distances:
+        """Return pairs as gaps between the vertices held, which come in order.
+
+        A place close to a vertex is close to both its edges: it is counted out once, so that a
+        vertex weighs what any place on an edge does.
+        """
+        edges, size = self.corners(pairs), len(self._next)
+        reach = self._reach(edges)
+        following = pairs - pairs % size + self._next[pairs % size]
+        place = np.searchsorted(pairs, following) % max(len(pairs), 1)
+        twice = np.flatnonzero(pairs[place] == following)
+        corners = np.concatenate([edges, edges[twice][:, [0, 2, 2]]])
+        reach = np.concatenate([reach, np.minimum(reach[twice], reach[place[twice]])])
+        sign = np.repeat([1, -1], [len(edges), len(twice)])
+        weights = sign * self._weights[corners[:, 0]] * reach
+        return Distances(np.searchsorted(vertices, corners), weights, reach)
+
+    def _sharpness(self, end: Complex) -> Array:
+        """Return (n,) boundary length around each vertex, less where the boundary is not convex."""
+        edges = end[self._stops] - end[self._starts]
+        after = edges[self._next]
+        length = (np.abs(edges) + np.abs(after)) / 2
+        sharpness = np.zeros(len(end))
+        sharpness[self._stops] = length * np.clip(np.angle(after / edges) / SHARP, FLAT, 1)
+        return sharpness
+
+    def _neighbours(self, z: Complex, distance: float) -> Indices:
+        """Return at least the pairs within a distance, in order, none of them on one edge."""
+        points = z[self._starts]
+        edges = z[self._stops] - points
+        radius = distance + np.abs(edges).max() / 2
+        here, there = (_tree(p) for p in (points, points + edges / 2))
+        found = here.sparse_distance_matrix(there, radius, output_type="ndarray")
+        vertex, edge = found["i"], found["j"]
+        apart = (vertex != edge) & (vertex != self._next[edge])
+        return np.sort(vertex[apart] * len(points) + edge[apart])
+
+    def _reach(self, corners: Indices) -> Array:
+        ends = [_distances(end[corners.T]) for end in self._ends]
+        return np.minimum(REACH, np.minimum(*ends) / 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Distances:
+    """Distances of points from edges, in units of those at which they are felt."""
+
+    corners: Indices
+    weights: Array
+    reach: Array
+    """(c,)"""
+
+    def __call__(self, z: Complex) -> Array:
+        """Return the gaps (c,) at positions z (k,)."""
+        return _distances(z[self.corners.T]) / self.reach
+
+    def derivatives(self, z: Complex, which: Indices) -> Derivatives:
+        """Return some of the gaps with their derivatives.
+
+        Beside an edge the distance is that from a line which turns as its ends move; beyond its
+        ends it is that of two points.
+        """
+        edge, share, away = _closest(*z[self.corners[which].T])
+        distance, length = np.abs(away), np.maximum(np.abs(edge), TINY)
+        normal, shares = away / distance, np.stack([np.ones_like(share), share - 1, -share], axis=1)
+        slopes = (normal[:, None] * shares).view(float)
+        across = ((1j * normal)[:, None] * shares).view(float)
+        along = ((edge / length)[:, None] * shares).view(float)
+        turning = ((normal / length)[:, None] * np.array([0, -1, 1])).view(float)
+        mixed = _outer(turning, along)
+        line = -mixed - mixed.transpose(0, 2, 1)
+        line -= distance[:, None, None] * _outer(turning, turning)
+        point = _outer(across, across) / distance[:, None, None]
+        beside, reach = (share > 0) & (share < 1), self.reach[which]
+        bends = np.where(beside[:, None, None], line, point) / reach[:, None, None]
+        return Derivatives(distance / reach, slopes / reach[:, None], bends)
+
+    def free_way(self, z: Complex, step: Complex) -> float:
+        """Return a part of a step that stops short of the first point to meet its edge."""
+        here, way = z[self.corners.T], step[self.corners.T]
+        times = times_of_flatness(here, way)
+        _, pair = hits = np.nonzero((times > 0) & (times * SHORT_OF_TOUCH < 1))
+        meets = here[:, pair] + times[hits] * way[:, pair]
+        on_edge = _distances(meets) <= 1e-9 * np.abs(meets[2] - meets[1])
+        return SHORT_OF_TOUCH * float(times[hits][on_edge].min(initial=np.inf))
+
+
+def _closest(point: Complex, start: Complex, stop: Complex) -> tuple[Complex, Array, Complex]:
+    """Return the edge, the share of it at its place closest to the point, and the way from there.
+
+    An edge may have no length.
+    """
+    edge, offset = stop - start, point - start
+    along = edge.real * offset.real + edge.imag * offset.imag
+    share = np.clip(along / np.maximum(edge.real**2 + edge.imag**2, TINY), 0, 1)
+    return edge, share, offset - share * edge
+
+
+def _seen_from_edges(corners: Complex) -> Complex:
+    """Return (2, c) how points lie from both ends of their edges, seen along the edge."""
+    point, start, stop = corners
+    ahead = (stop - start) / np.maximum(np.abs(stop - start), TINY)
+    return np.stack([point - start, point - stop]) * np.conj(ahead)
+
+
+def _distances(corners: Complex) -> Array:
+    """Return the distances (c,) of points from edges, given as (3, c)."""
+    return np.abs(_closest(*corners)[2])
+
+
+def _outer(a: Array, b: Array) -> Array:
+    return a[:, :, None] * b[:, None]
+
+
+def _tree(z: Complex) -> cKDTree:
+    return cKDTree(z.view(float).reshape(-1, 2))
+
+
+def _aligned(z: Complex, model: Complex) -> Complex:
+    """Return positions (n,) turned and moved closest to a model."""
+    return model.mean() + rotation_between(z, model) * (z - z.mean())
+
+
+def rotation_between(z: Complex, model: Complex) -> complex:
+    """Return the rotation that brings positions (n,) closest to a model, as a complex number."""
+    product = np.vdot(z - z.mean(), model - model.mean())
+    return complex(product / abs(product))

@@ -1,0 +1,145 @@
+"""A frame that would fold or cross, settled where it does neither.
+
+Only vertices near a fold or a contact are held. All others follow them as the fit's own linear
+system has it, so that a frame settles in a system of the few (static condensation).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.geometry.rotation import Complex
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+from core.morph.motion.barrier import Gaps, settle
+from core.morph.motion.contact import Contact
+from core.morph.motion.fit import GradientFit
+from core.morph.motion.gradients import determinant
+from core.morph.motion.guard import REACH, FoldGuard
+
+WARY = 1.5
+"""How many times further than they are felt folds and contacts are watched while settling."""
+ROUNDS = 8
+"""How often more is held, where a settled frame folds or crosses elsewhere."""
+
+
+@dataclass(frozen=True, eq=False)
+class Wanted:
+    """What a frame is to be close to."""
+
+    fitted: Complex
+    """(n,) the plain fit."""
+    determinants: Array
+    """(m,) of the ideal gradients."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tight:
+    """Where a frame is close to a fold or a contact."""
+
+    triangles: Indices
+    pairs: Indices
+
+    def __bool__(self) -> bool:
+        return len(self.triangles) > 0 or len(self.pairs) > 0
+
+    def __or__(self, other: Tight) -> Tight:
+        return Tight(
+            np.union1d(self.triangles, other.triangles), np.union1d(self.pairs, other.pairs)
+        )
+
+    def __sub__(self, other: Tight) -> Tight:
+        return Tight(_without(self.triangles, other.triangles), _without(self.pairs, other.pairs))
+
+
+@dataclass(frozen=True, eq=False)
+class Grip:
+    """What is held, and how stiffly the rest of the shape answers."""
+
+    tight: Tight
+    vertices: Indices
+    """(k,) in order."""
+    stiffness: Array
+    """(k, k)"""
+
+
+class Hold:
+    """Keeps frames from folding and crossing: fit, folds and contact are one energy."""
+
+    def __init__(self, fit: GradientFit, guard: FoldGuard, contact: Contact) -> None:
+        self._fit, self._guard, self._contact = fit, guard, contact
+
+    def wanted(self, ideal: Complex, fitted: Array) -> Wanted:
+        """Return what a frame is to be, for ideal gradients (2, m) and their fit (n, 2)."""
+        return Wanted(_complex(fitted), determinant(ideal))
+
+    def margin(self, z: Complex, wanted: Wanted) -> float:
+        """Return the smallest ratio of a triangle's area to the ideal one: a fold is 0 or less."""
+        return float(self._guard.margins(z, wanted.determinants).min())
+
+    def tight(
+        self, z: Complex, wanted: Wanted, within: float = 1.0, among: Indices | None = None
+    ) -> Tight:
+        """Return where positions z (n,) come within so many times what is felt.
+
+        ``among`` are the pairs that may, if that is known.
+        """
+        margins = self._guard.margins(z, wanted.determinants)
+        return Tight(np.flatnonzero(margins < within * REACH), self._contact.near(z, within, among))
+
+    def sound(self, z: Complex, wanted: Wanted) -> bool:
+        """Whether positions z (n,) neither fold nor cross."""
+        return self.margin(z, wanted) > 0 and not self._contact.crosses(z)
+
+    def grip(self, tight: Tight) -> Grip:
+        """Return all that is needed to hold some triangles and pairs."""
+        corners = self._guard.triangles[tight.triangles], self._contact.corners(tight.pairs)
+        vertices = np.unique(np.concatenate(corners))
+        return Grip(tight, vertices, self._fit.stiffness(vertices))
+
+    def __call__(
+        self, wanted: Wanted, start: Complex, grip: Grip, among: Indices | None = None
+    ) -> tuple[Complex, Grip]:
+        """Return the settled frame (n,) from a sound start (n,), and what it took to hold.
+
+        Where it folds or crosses although all that is held is open, it is settled anew with more.
+        """
+        for _ in range(ROUNDS):
+            z = self._settled(wanted, start, grip)
+            missing = self.tight(z, wanted, among=among) - grip.tight
+            crosses = self._contact.crosses(z)
+            if not missing and not crosses:
+                break
+            if crosses:
+                missing |= Tight(missing.triangles, self._contact.meeting(start, z))
+            elif self.margin(z, wanted) > 0:
+                start = z
+            grip = self.grip(grip.tight | missing)
+        return z, grip
+
+    def _settled(self, wanted: Wanted, start: Complex, grip: Grip) -> Complex:
+        held, tight = grip.vertices, grip.tight
+        kinds: tuple[Gaps, ...] = (
+            self._guard.gaps(tight.triangles, held, wanted.determinants),
+            self._contact.gaps(tight.pairs, held),
+        )
+        fitted = wanted.fitted[held]
+        felt = [kind for kind in kinds if len(kind.corners)]
+        offset = settle(fitted, grip.stiffness, felt, start[held]) - fitted
+        force = np.zeros(len(start), dtype=complex)
+        force[held] = grip.stiffness @ offset
+        return wanted.fitted + _complex(self._fit.solve(np.array([force.real, force.imag]).T))
+
+
+def _without(some: Indices, others: Indices) -> Indices:
+    """Return those of some numbers that are not among others, both in order."""
+    if not len(others):
+        return some
+    place = np.searchsorted(others, some)
+    return some[others[np.minimum(place, len(others) - 1)] != some]
+
+
+def _complex(points: Array) -> Complex:
+    return points[:, 0] + 1j * points[:, 1]

@@ -1,0 +1,84 @@
+"""Gaps, their derivatives, and what settles between them."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.morph.motion.barrier import barrier, settle
+from core.morph.motion.contact import Distances
+from core.morph.motion.guard import TriangleGaps
+
+COUNT = 20
+
+
+def gaps(kind: str, rng: np.random.Generator) -> Distances | TriangleGaps:
+    corners = np.arange(3 * COUNT).reshape(-1, 3)
+    weights, felt = rng.uniform(0.1, 1, COUNT), rng.uniform(0.5, 2, COUNT)
+    return {"distances": Distances, "areas": TriangleGaps}[kind](corners, weights, felt)
+
+
+def places(rng: np.random.Generator) -> np.ndarray:
+    return rng.normal(size=3 * COUNT) + 1j * rng.normal(size=3 * COUNT)
+
+
+@pytest.mark.parametrize("kind", ["distances", "areas"])
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6))
+def test_slopes_and_bends_are_those_of_the_gaps(kind, seed):
+    rng = np.random.default_rng(seed)
+    found, z, h = gaps(kind, rng), places(rng), 1e-6
+    every = np.arange(COUNT)
+    at = found.derivatives(z, every)
+    assert np.allclose(at.gaps, found(z))
+    scale = 1 + np.abs(at.bends).max(axis=(1, 2))  # a point close to another bends sharply
+    for i in range(6):
+        step = np.zeros(3 * COUNT, dtype=complex)
+        step[i // 2 :: 3] = h * (1, 1j)[i % 2]
+        after, before = (found.derivatives(z + sign * step, every) for sign in (1, -1))
+        slopes = (after.gaps - before.gaps) / (2 * h)
+        bends = (after.slopes - before.slopes) / (2 * h)
+        assert (np.abs(slopes - at.slopes[:, i]) < 1e-6 * scale).all()
+        steady = np.abs(bends - at.bends[:, :, i]).max(axis=1) < 1e-3 * scale**2
+        assert steady.sum() >= COUNT - 1  # one may pass from beside an edge to beyond its end
+
+
+@pytest.mark.parametrize("kind", ["distances", "areas"])
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6))
+def test_no_gap_closes_within_the_free_way_and_one_does_right_after(kind, seed):
+    rng = np.random.default_rng(seed)
+    found, z, step = gaps(kind, rng), places(rng), 20 * places(rng)
+    z[2::3] = z[::3] + (z[1::3] - z[::3]) * 1j  # all areas positive
+    free = found.free_way(z, step)
+    shares = np.linspace(0, 1, 200)
+    if kind == "areas":
+        assert all(found(z + share * free * step).min() > 0 for share in shares)
+        assert found(z + 1.01 / 0.9 * free * step).min() < 0
+    else:
+        assert found(z + free / 0.9 * step).min() < 1e-6
+        assert min(found(z + share * free * step).min() for share in shares) > 1e-6
+
+
+def test_the_barrier_sets_in_smoothly_and_never_lets_a_gap_close():
+    assert barrier(np.array([1.0, 2.0])).tolist() == [0, 0]
+    assert np.isinf(barrier(np.array([0.0, -1.0]))).all()
+    assert barrier(np.array([1 - 1e-3]))[0] < 1e-8
+    assert (np.diff(barrier(np.linspace(0.01, 1, 99))) < 0).all()
+
+
+def test_where_no_gap_is_felt_nothing_departs_from_the_fit():
+    corners = np.array([[0, 1, 2]])
+    fitted = np.array([2j, -1, 1])
+    start = fitted + 0.1
+    z = settle(fitted, np.eye(3), [Distances(corners, np.ones(1), np.ones(1))], start)
+    assert np.allclose(z, fitted, atol=1e-12)
+
+
+def test_a_point_that_is_to_pass_through_an_edge_stays_on_its_side():
+    corners = np.array([[0, 1, 2]])
+    start, fitted = np.array([1j, -1, 1]), np.array([-1j, -1, 1])
+    z = settle(fitted, np.eye(3), [Distances(corners, np.ones(1), np.full(1, 0.5))], start)
+    assert 0 < z[0].imag - z[1].imag < 0.5
+    assert z.imag.sum() == pytest.approx(-1)  # all share the way that is missing
+    assert np.abs(z.real - fitted.real).max() < 1e-9
