@@ -16,6 +16,8 @@ from PySide6.QtCore import QStandardPaths
 from PySide6.QtGui import QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication
 
+from app.jobs.collector import Collector
+
 log = logging.getLogger(__name__)
 
 
@@ -27,6 +29,7 @@ def make_application() -> QApplication:
     app.setApplicationVersion(version("betwixt"))
     app.setWindowIcon(QIcon(str(files("resources") / "icons" / "betwixt.svg")))
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C in the terminal; the work is kept
+    Collector(app)
     _start_log()
     return app
 

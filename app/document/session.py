@@ -134,8 +134,12 @@ class Session(QObject):
         self.file_changed.emit()
 
     def close(self) -> None:
-        """Cut the signals before Qt takes the objects apart."""
+        """Cut the signals and drop the history before Qt takes the objects apart.
+
+        Steps that are left would be freed twice: by Qt, and with what they hold of Python's.
+        """
         self.undo_stack.cleanChanged.disconnect(self._on_clean_changed)
+        self.undo_stack.clear()
 
     def _on_clean_changed(self, _clean: bool) -> None:
         self.file_changed.emit()

@@ -37,6 +37,7 @@ def solve_all(
         def report(fraction: float, stage: str, done: int = done) -> None:
             progress((done + fraction) / len(missing), stage)
 
+        report(0.0, "outlines")  # a map that is remembered tells nothing of its own
         try:
             solved[span] = solve_span(span, report)
         except MorphError as error:

@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, QStandardPaths, QThread
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
+from app.jobs.collector import Collector
 from app.jobs.inspector import Check, Inspector, check_outwards
 from app.jobs.solver import Solve, Solver
 from app.jobs.suggestions import Suggestions
@@ -24,10 +25,17 @@ from core.progress import Progress
 QStandardPaths.setTestModeEnabled(True)
 
 
+@pytest.fixture(scope="session")
+def collector(qapp: QObject) -> Collector:
+    """Garbage is collected in the thread of the window, as in the program."""
+    return Collector(qapp)
+
+
 @pytest.fixture(autouse=True)
-def no_thread_left_running() -> Iterator[None]:
+def no_thread_left_running(collector: Collector) -> Iterator[None]:
     """Fail a test after which a thread is still running."""
     yield
+    collector.collect()
     running = [t.objectName() for t in gc.get_objects() if isinstance(t, QThread) and _runs(t)]
     assert not running, f"threads left running: {running}"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -134,6 +135,7 @@ def test_frames_near_the_playhead_are_looked_at_first(workspace: Workspace, qtbo
     class Still:
         triangles, rings = np.array([[0, 1, 2]]), (np.arange(3),)
         rest = target = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+        report = SimpleNamespace(repairs=())
 
         def at(self, s: float) -> np.ndarray:
             told.append(s)
