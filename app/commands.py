@@ -125,12 +125,8 @@ class Commands(QObject):
 
     def accept_suggestions(self) -> None:
         """Make marks of all suggestions."""
-        layer = self._unlocked()
+        self._unlocked()
         self._suggestions.accept_all()
-        added = self._session.document.layer(layer.id).labels[len(layer.labels) :]
-        if added:
-            text = self.tr("Marks added: {count} ({letters}). Drag any that you want elsewhere.")
-            self.noted.emit(text.format(count=len(added), letters=", ".join(added)))
 
     def hide_suggestions(self) -> None:
         """Show no suggestions until they are asked for."""

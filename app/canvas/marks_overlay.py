@@ -20,6 +20,9 @@ RADIUS = 9.5
 STALK = 21.0
 """From the marked place to the middle of its letter."""
 DOT = 3.5
+LEASH = 1.8
+"""How many times as far a letter may go to make room for others."""
+ROUNDS = 12
 
 
 class MarksOverlay(Overlay):
@@ -69,10 +72,38 @@ class MarksOverlay(Overlay):
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
 
 
-def letter_centres(view: View, pins: Pins, stalk: float = STALK) -> Array:
-    """Return (k, 2) pixels of a view where the letters stand, at the end of stalks."""
+def letter_centres(view: View, pins: Pins) -> Array:
+    """Return (k, 2) pixels of a view where the letters stand: off the shape, and side by side."""
+    return _apart(stalk_ends(view, pins, STALK), view.to_screen(pins.places))
+
+
+def stalk_ends(view: View, pins: Pins, stalk: float) -> Array:
+    """Return (k, 2) pixels of a view that are ``stalk`` away from the pins, off the shape."""
     mirror = np.sign(view.to_screen([1.0, 0.0]) - view.to_screen([0.0, 0.0]))[0]
     return view.to_screen(pins.places) + stalk * pins.outward * [mirror, 1.0]
+
+
+def _apart(letters: Array, places: Array) -> Array:
+    """Push letters (k, 2) off each other and off marked places (k, 2), each on a leash.
+
+    What moves little moves them little, so that they do not hop while a shape is scrubbed.
+    """
+    others = ~np.eye(len(letters), dtype=bool)
+    for _ in range(ROUNDS):
+        letters = letters + _push(letters, letters, RADIUS, others) / 2
+        letters = letters + _push(letters, places, DOT + 1, others)
+        stalks = letters - places
+        length = np.maximum(np.hypot(*stalks.T), 1e-9)
+        letters = places + stalks * (np.clip(length, STALK, LEASH * STALK) / length)[:, None]
+    return letters
+
+
+def _push(letters: Array, things: Array, radius: float, others: Array) -> Array:
+    """Return how far (k, 2) letters have to go to be off things (k, 2) of a radius."""
+    away = letters[:, None] - things
+    distance = np.maximum(np.hypot(away[..., 0], away[..., 1]), 1e-9)
+    overlap = np.where(others, np.maximum(RADIUS + radius + 1 - distance, 0.0), 0.0)
+    return (away * (overlap / distance)[..., None]).sum(axis=1)
 
 
 def mark_at(view: View, pins: Pins, pixel: Array, reach: float) -> int | None:

@@ -11,7 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPolygonF
 
 from app.canvas.ink import HALO, pen
-from app.canvas.marks_overlay import letter_centres
+from app.canvas.marks_overlay import letter_centres, stalk_ends
 from app.canvas.overlay import Overlay
 from app.canvas.pins import NO_PINS, Pins, pins_at
 from app.canvas.view import View
@@ -74,7 +74,7 @@ class SuggestionsOverlay(Overlay):
             return
         pins = suggested.ends[0][1]
         ends = [self.view.to_screen(end.places) for _, end in suggested.ends]
-        numbers = letter_centres(self.view, pins, STALK)
+        numbers = stalk_ends(self.view, pins, STALK)
         confidence = np.array([suggestion.confidence for suggestion in suggested.suggestions])
         legible = self._legible(numbers, ends[0], confidence)
         strength = FAINTEST + (CLEAREST - FAINTEST) * confidence

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 
 from app.document.playhead import Playhead
 from app.document.selection import Selection
@@ -90,15 +90,7 @@ class Suggestions(QObject):
         """… and what was in view then."""
         self._worker = Worker("suggestions", self)
         self._worker.done.connect(self._on_done)
-        self._followed = (
-            session.changed,
-            session.undo_stack.indexChanged,  # a drag has ended
-            selection.changed,
-            playhead.moved,
-            solver.updated,
-            view.changed,
-        )
-        for signal in self._followed:
+        for signal in self._followed():
             signal.connect(self._follow_soon)
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._follow)
@@ -127,6 +119,12 @@ class Suggestions(QObject):
         if (now.layer_id, now.span) != (before.layer_id, before.span):
             return ()
         return tuple(s for s in self._answer.suggestions if _fits(s, now.keyframes))
+
+    @property
+    def used(self) -> bool:
+        """Whether the span is solved with what is shown, having no marks that count instead."""
+        question = self._question()
+        return bool(question and question.proposed and not question.keyframes[0].marks)
 
     @property
     def span(self) -> int:
@@ -173,12 +171,22 @@ class Suggestions(QObject):
         """Stop, and end the thread."""
         if self._worker.closed:
             return
-        for signal in self._followed:
+        for signal in self._followed():
             signal.disconnect(self._follow_soon)
         self._soon.stop()
         self._worker.close()
 
     # -- the flow ------------------------------------------------------------------------------
+
+    def _followed(self) -> tuple[SignalInstance, ...]:
+        return (
+            self._session.changed,
+            self._session.undo_stack.indexChanged,  # a drag has ended
+            self._selection.changed,
+            self._playhead.moved,
+            self._solver.updated,
+            self._view.changed,
+        )
 
     def _follow_soon(self) -> None:
         """Follow once what several signals announce, when all have heard of it."""

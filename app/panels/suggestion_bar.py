@@ -28,10 +28,21 @@ class SuggestionBar(QWidget):
         suggestions.changed.connect(self._refresh)
         self._refresh()
 
+    @property
+    def text(self) -> str:
+        """What it says."""
+        return self._text.text()
+
     def _refresh(self) -> None:
         count = len(self._suggestions.shown)
-        text = self.tr("1 suggested mark") if count == 1 else self.tr("{count} suggested marks")
+        if count and self._suggestions.used:
+            text = self.tr("Solved with suggested marks: {count}")
+            tip = self.tr("The frames follow them until a mark is set; then marks alone count")
+        else:
+            text = self.tr("More marks suggested: {count}")
+            tip = self.tr("The frames follow the marks that are set, and these once accepted")
         self._text.setText(text.format(count=count))
+        self._text.setToolTip(tip)
         self.accept.setEnabled(count > 0 and self._suggestions.current)
         self.setVisible(self._suggestions.placing and count > 0)
 

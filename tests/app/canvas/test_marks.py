@@ -9,11 +9,11 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from app.canvas.marks_overlay import letter_centres
+from app.canvas.marks_overlay import LEASH, RADIUS, STALK, letter_centres
 from app.canvas.moment import Role
 from app.canvas.pins import pins_on_key
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
-from core.model.edits import remove_marks
+from core.model.edits import add_mark, remove_marks
 from core.morph import suggest
 from core.morph.marks.rings import match_rings
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
@@ -221,6 +221,22 @@ def test_letters_stand_off_the_shape_and_off_its_holes(open_canvas):
         for place, outward in zip(pins.places, pins.outward, strict=True):
             assert not shape.contains(Point(place + 5 * outward))
             assert np.hypot(*outward) == pytest.approx(1)
+
+
+def test_letters_of_marks_close_together_stand_side_by_side(open_canvas):
+    document = a_document(marks=False)
+    for at in (1.94, 1.0, 1.03, 1.06, 1.5, 1.97, 2.0):
+        document = add_mark(document, 1, [RingPoint(0, at), RingPoint(0, at)])
+    hand = open_canvas(document, tool="marks")
+    for role in (SOURCE, TARGET):
+        view, pins = hand.pane(role).view, pins_on_key(hand.pane(role).keyframe)
+        centres = letter_centres(view, pins)
+        apart = np.hypot(*(centres[:, None] - centres).T) + 100 * np.eye(len(centres))
+        assert apart.min() > 1.7 * RADIUS
+        stalks = np.hypot(*(centres - view.to_screen(pins.places)).T)
+        assert stalks.max() <= LEASH * STALK + 1e-6
+    hand.click(SOURCE, letter(hand, SOURCE, 2))
+    assert hand.workspace.selection.mark == 2
 
 
 def test_a_locked_layer_refuses_marks(open_canvas):

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -57,9 +58,9 @@ def seen(hand: Hand, role: Role) -> list[tuple[float, ...]]:
     return [tuple(place) for _, pins in ends for place in pins.places]
 
 
-def pixels(hand: Hand, role: Role) -> bytes:
+def picture(hand: Hand, role: Role) -> QImage:
     """What a pane looks like."""
-    return bytes(hand.pane(role).view.grab().toImage().constBits())
+    return hand.pane(role).view.grab().toImage()
 
 
 # -- what is shown -----------------------------------------------------------------------------
@@ -78,11 +79,11 @@ def test_an_unmarked_span_shows_the_marks_that_it_was_solved_with(hand: Hand):
 
 def test_suggestions_come_with_the_marks_tool_and_go_with_it(hand: Hand):
     assert seen(hand, SOURCE)
-    drawn = pixels(hand, SOURCE)
+    drawn = picture(hand, SOURCE)
     hand.key(SOURCE, Key.Key_Escape)
     assert hand.canvas.tool == "select"
     assert seen(hand, SOURCE) == []
-    assert pixels(hand, SOURCE) != drawn
+    assert picture(hand, SOURCE) != drawn
 
 
 @pytest.mark.parametrize(("when", "with_tool", "without"), [("always", 1, 1), ("never", 0, 0)])
