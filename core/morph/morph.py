@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from threading import Lock
-from typing import Any, Self
+from dataclasses import dataclass, replace
+from typing import Self
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
@@ -33,10 +32,6 @@ class Morph:
     """(2,) where those coordinates have their zero."""
     unit: float
     """Their length unit."""
-    _last: list[Any] = field(default_factory=lambda: [None, None], init=False, repr=False)
-    """The last s and its positions: several views ask for the same frame."""
-    _lock: Lock = field(default_factory=Lock, repr=False)
-    """Shared by all that share what was solved: the guard against folds factors in place."""
 
     def __post_init__(self) -> None:
         self.rest.setflags(write=False)
@@ -71,13 +66,19 @@ class Morph:
 
         Outside [0, 1] the motion is carried on, for easings that overshoot. The array is read-only.
         """
-        if s == 0:
-            return self.rest
-        if s == 1:
-            return self.target
-        with self._lock:
-            if self._last[0] != s:
-                positions = self.origin + self.unit * self.inbetween(s)
-                positions.setflags(write=False)
-                self._last[:] = s, positions
-            return self._last[1]
+        if s in (0, 1):
+            return self.target if s else self.rest
+        return self._outside(self.inbetween(s))
+
+    def plain(self, s: float) -> Array | None:
+        """Return what ``at`` does, or None if the frame must be held, which takes a while."""
+        if s in (0, 1):
+            return self.at(s)
+        positions = self.inbetween.plain(s)
+        return None if positions is None else self._outside(positions)
+
+    def _outside(self, positions: Array) -> Array:
+        """Return positions (n, 2) of the solver in the document's coordinates."""
+        positions = self.origin + self.unit * positions
+        positions.setflags(write=False)
+        return positions

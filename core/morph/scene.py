@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from core.geometry.flatten import flatten
 from core.geometry.places import nearest_place
@@ -15,6 +15,7 @@ from core.model.turning import AS_DRAWN
 from core.progress import Progress, silent
 
 if TYPE_CHECKING:
+    from core.geometry.triangulation import Indices
     from core.morph.morph import Morph
 
 
@@ -64,6 +65,21 @@ class TimedSpan:
         return [(self.first + k, self.easing(k / length)) for k in range(length + 1)]
 
 
+class Frames(Protocol):
+    """What is seen of a solution."""
+
+    @property
+    def rings(self) -> tuple[Indices, ...]:
+        """The boundary as vertex indices, exterior first."""
+
+    def at(self, s: float) -> Array:
+        """Return positions (n, 2) at progress s."""
+        ...
+
+
+F = TypeVar("F", bound=Frames)
+FramesOf = Callable[[Span], F | None]
+"""Looks up what is seen of a span's solution; None while there is none."""
 MorphOf = Callable[[Span], "Morph | None"]
 """Looks a span's solution up; None while there is none."""
 
@@ -111,23 +127,23 @@ def solve_span(span: Span, progress: Progress = silent) -> Morph:
     return solve(span, progress)
 
 
-def layer_rings(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[Array, ...]:
+def layer_rings(layer: Layer, frame: float, frames_of: FramesOf[F]) -> tuple[Array, ...]:
     """Return what a layer shows at a frame, as closed polylines (k, 2), exterior first.
 
     Between keys it is the in-between at the eased time; a key, and a span that has no solution
     yet, shows the keyframe's own outline.
     """
-    index, s, morph = _shown(layer, frame, morph_of)
-    if morph is not None:
-        positions = morph.at(s)
-        return tuple(positions[ring] for ring in morph.rings)
+    index, s, frames = _shown(layer, frame, frames_of)
+    if frames is not None:
+        positions = frames.at(s)
+        return tuple(positions[ring] for ring in frames.rings)
     return tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
 
 
-def picture_at(document: Document, frame: float, morph_of: MorphOf) -> Picture:
+def picture_at(document: Document, frame: float, frames_of: FramesOf[F]) -> Picture:
     """Return the visible layers at a frame."""
     shapes = tuple(
-        Shape(layer.id, layer.name, layer.style, layer_rings(layer, frame, morph_of))
+        Shape(layer.id, layer.name, layer.style, layer_rings(layer, frame, frames_of))
         for layer in document.layers
         if layer.visible
     )
@@ -155,11 +171,11 @@ def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> tuple[Keyframe, 
     return Keyframe(frame, outline, marks, turning=after), before
 
 
-def _shown(layer: Layer, frame: float, morph_of: MorphOf) -> tuple[int, float, Morph | None]:
+def _shown(layer: Layer, frame: float, frames_of: FramesOf[F]) -> tuple[int, float, F | None]:
     """Return the span at a frame, s in it, and its solution; None where a key itself shows."""
     index, s = layer.progress_at(frame)
     between = s not in (0.0, 1.0)  # an easing may also overshoot
-    return index, s, morph_of(span_of(layer, index)) if between else None
+    return index, s, frames_of(span_of(layer, index)) if between else None
 
 
 def _nearest_key(layer: Layer, index: int, s: float) -> Keyframe:

@@ -98,7 +98,14 @@ class Motion:
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t."""
-        x = self.shape(t)
+        return self._placed(self.shape(t), t)
+
+    def plain(self, t: float) -> Array | None:
+        """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
+        x = self.shape.plain(t) if isinstance(self.shape, Rigid) else self.shape(t)
+        return None if x is None else self._placed(x, t)
+
+    def _placed(self, x: Array, t: float) -> Array:
         return x if self.course is None else self.course(x, t)
 
 

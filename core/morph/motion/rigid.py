@@ -70,6 +70,10 @@ class Rigid:
         """Return positions (n, 2) at t, wherever they lie."""
         return self._frames(t)
 
+    def plain(self, t: float) -> Array | None:
+        """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
+        return self._frames.plain(t)
+
 
 def _symmetric_weights(before: Elements, after: Elements, F: Array) -> Array:
     """Return (m, 2, 2) how much each triangle's deviation counts."""

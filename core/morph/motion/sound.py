@@ -99,16 +99,26 @@ class SoundFrames:
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t."""
+        x, trouble = self._fitted(t)
+        if trouble is None:
+            return x
+        z = self._held(t, *trouble)
+        return np.column_stack([z.real, z.imag])
+
+    def plain(self, t: float) -> Array | None:
+        """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
+        x, trouble = self._fitted(t)
+        return x if trouble is None else None
+
+    def _fitted(self, t: float) -> tuple[Array, tuple[Wanted, Stretch] | None]:
+        """Return the plain fit (n, 2) at t, and what it takes to hold it, if it must be held."""
         ideal = self._ideal(t)
         x = self._fit(ideal)
         stretch = self._stretches[np.searchsorted(self._times, t)]
         if stretch is None:
-            return x
+            return x, None
         wanted = self._hold.wanted(ideal, x)
-        if self._free(wanted, stretch.pairs):
-            return x
-        z = self._held(t, wanted, stretch)
-        return np.column_stack([z.real, z.imag])
+        return x, None if self._free(wanted, stretch.pairs) else (wanted, stretch)
 
     def _held(self, t: float, wanted: Wanted, stretch: Stretch) -> Complex:
         start = self._start(t, wanted, stretch.anchors)
