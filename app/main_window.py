@@ -22,6 +22,7 @@ from app.files.files import Files
 from app.files.recent_menu import RecentMenu
 from app.help import show_about, show_shortcuts
 from app.icons import retint
+from app.jobs.frames import Frames
 from app.jobs.inspector import Inspector
 from app.jobs.solver import Solver
 from app.jobs.suggestions import Suggestions
@@ -246,10 +247,11 @@ def _new_workspace(window: QMainWindow) -> Workspace:
     session = Session(parent=window)
     selection, playhead = Selection(session, window), Playhead(session, window)
     solver = Solver(session, selection, playhead, parent=window)
-    inspector = Inspector(session, selection, playhead, solver, parent=window)
+    frames = Frames(window)
+    inspector = Inspector(session, selection, playhead, solver, frames, parent=window)
     view = ViewOptions(window)
     suggestions = Suggestions(session, selection, playhead, solver, view, window)
-    return Workspace(session, selection, playhead, solver, inspector, view, suggestions)
+    return Workspace(session, selection, playhead, solver, frames, inspector, view, suggestions)
 
 
 def _files(urls: list[QUrl]) -> list[Path]:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from app.document.playhead import Playhead
     from app.document.selection import Selection
     from app.document.session import Session
+    from app.jobs.frames import Frames
     from app.jobs.inspector import Inspector
     from app.jobs.solver import Solver
     from app.jobs.suggestions import Suggestions
@@ -51,6 +52,7 @@ class Workspace:
     selection: Selection
     playhead: Playhead
     solver: Solver
+    frames: Frames
     inspector: Inspector
     view: ViewOptions
     suggestions: Suggestions

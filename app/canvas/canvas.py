@@ -167,8 +167,8 @@ class Canvas(QWidget):
         self._after_tool()
 
     def _keep_patience(self) -> None:
-        """Say nothing of what is solved in a moment: dimming it would only flicker."""
-        if not self._workspace.solver.busy:
+        """Do not dim what is there in a moment: it would only flicker."""
+        if not self._workspace.solver.busy and self._workspace.frames.missing is None:
             self._patience.stop()
             self._late = False
         elif not self._late and not self._patience.isActive():
@@ -328,6 +328,7 @@ class Canvas(QWidget):
             w.solver.updated,
             w.inspector.changed,
             w.suggestions.changed,
+            w.frames.came,
         ):
             signal.connect(self._refresh_soon)
         w.playhead.moved.connect(self._on_playhead_moved)

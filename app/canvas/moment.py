@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
 from typing import TYPE_CHECKING
 
+from app.jobs.frames import Shown
 from app.jobs.solver import SpanState
 from app.workspace import Workspace
 from core.model import Document, Layer
 from core.model.outline import Array
-from core.morph.scene import span_of
+from core.model.picture import Picture
+from core.morph.scene import Span, picture_at, span_of
 
 if TYPE_CHECKING:
     from core.morph.morph import Morph
@@ -38,20 +39,19 @@ class Moment:
     s: float = 0.0
     """Progress in time and in shape."""
     morph: Morph | None = None
+    positions: Array | None = None
+    """(n, 2) vertices of the current layer's mesh, as they are on screen."""
     state: SpanState = SpanState.NONE
+    late: bool = False
+    """Whether the current layer's in-between is not made yet, and the one next to it is seen."""
     stale: frozenset[int] = frozenset()
     """Layers whose in-between on screen is not what the document says by now."""
     trouble: Array | None = None
     """(k, 2) where the in-between folds or crosses itself, as far as it was looked at."""
 
-    @cached_property
-    def positions(self) -> Array | None:
-        """(n, 2) vertices of the current layer's mesh at this moment."""
-        return None if self.morph is None else self.morph.at(self.s)
-
 
 def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
-    """Take a look; a patient one takes what is being solved right now for solved."""
+    """Take a look; a patient one takes what will be there in a moment for what it shows now."""
     document, frame = workspace.session.document, workspace.playhead.frame
     layer = workspace.selection.layer
 
@@ -59,20 +59,57 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
         state = workspace.solver.state(layer.id, layer.span_at(frame)[0])
         return SpanState.SOLVED if patient and state is SpanState.SOLVING else state
 
-    stale = frozenset(
+    late = {
+        other.id for other in document.layers if other.visible and _late(workspace, other, frame)
+    }
+    stale = {
         other.id
         for other in document.layers
         if other.progress_at(frame)[1] not in (0.0, 1.0)  # an easing may also overshoot
         and state_of(other) is not SpanState.SOLVED
-    )
+    }
+    stale = frozenset(stale if patient else stale | late)
     if layer is None or not layer.spans:
         return Moment(document, frame, layer, stale=stale)
     span, t = layer.span_at(frame)
-    morph = workspace.solver.morph_of(span_of(layer, span))
     s = layer.progress_at(frame)[1]
-    check = workspace.inspector.frame_check(layer.id, frame) if frame.is_integer() else None
-    trouble = None if check is None else check.places
-    return Moment(document, frame, layer, span, t, s, morph, state_of(layer), stale, trouble)
+    morph = workspace.solver.morph_of(span_of(layer, span))
+    positions = None if morph is None else workspace.frames.at(morph, s)
+    known = frame.is_integer() and layer.id not in late
+    check = workspace.inspector.frame_check(layer.id, frame) if known else None
+    return Moment(
+        document,
+        frame,
+        layer,
+        span,
+        t,
+        s,
+        morph,
+        positions,
+        state_of(layer),
+        layer.id in late,
+        stale,
+        None if check is None else check.places,
+    )
+
+
+def _late(workspace: Workspace, layer: Layer, frame: float) -> bool:
+    """Return whether a layer's in-between is known how to make, but not made yet."""
+    if not layer.spans:
+        return False
+    index, s = layer.progress_at(frame)
+    morph = workspace.solver.morph_of(span_of(layer, index))
+    return morph is not None and workspace.frames.exact(morph, s) is None
+
+
+def picture_on_screen(workspace: Workspace, frame: float) -> Picture:
+    """Return the visible layers at a frame, as far as they are there."""
+
+    def shown(span: Span) -> Shown | None:
+        morph = workspace.solver.morph_of(span)
+        return None if morph is None else Shown(morph, workspace.frames)
+
+    return picture_at(workspace.session.document, frame, shown)
 
 
 def edited_key(workspace: Workspace, role: Role) -> int | None:

@@ -14,7 +14,7 @@ from app.canvas.header import Header
 from app.canvas.invitation import Invitation
 from app.canvas.marks_overlay import MarksOverlay
 from app.canvas.mesh_overlay import MeshOverlay
-from app.canvas.moment import Moment, Role, edited_key
+from app.canvas.moment import Moment, Role, edited_key, picture_on_screen
 from app.canvas.onion import AFTER, BEFORE, OnionSkin
 from app.canvas.overlay import ToolOverlay
 from app.canvas.pins import NO_PINS, pins_between, pins_on_key
@@ -26,7 +26,6 @@ from app.style import colours
 from app.workspace import Workspace
 from core.errors import Trouble
 from core.model import Keyframe
-from core.morph.scene import picture_at
 
 if TYPE_CHECKING:
     from app.canvas.tools.tool import Tool
@@ -142,11 +141,8 @@ class Pane(QWidget):
 
     def _show_artwork(self, moment: Moment) -> None:
         keyframe = None if self.live else self.keyframe
-        picture = picture_at(
-            moment.document,
-            moment.frame if keyframe is None else keyframe.frame,
-            self._workspace.solver.morph_of,
-        )
+        frame = moment.frame if keyframe is None else keyframe.frame
+        picture = picture_on_screen(self._workspace, frame)
         if self.live:
             opacities = dict.fromkeys(moment.stale, STALE)
             self.artwork.show_shapes(picture.shapes, opacities)
@@ -258,9 +254,10 @@ class Pane(QWidget):
         self.view.setAccessibleName(" · ".join([name, *details]))
 
     def _state_text(self, moment: Moment) -> str:
+        updating = self.tr("updating…")
         return {
-            SpanState.SOLVED: "",
-            SpanState.SOLVING: self.tr("updating…"),
+            SpanState.SOLVED: updating if moment.late else "",
+            SpanState.SOLVING: updating,
             SpanState.FAILED: self.tr("not solved"),
             SpanState.NONE: self.tr("not up to date"),
         }[moment.state]

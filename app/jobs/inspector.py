@@ -2,31 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Collection, Iterable, Mapping
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Signal, SignalInstance
 
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
+from app.jobs.frames import Frames
+from app.jobs.looking import Look, Sight, Task, look, make
 from app.jobs.remembered import Remembered
 from app.jobs.solver import Solver, SpanState
-from app.jobs.urgency import Key, most_urgent
+from app.jobs.urgency import Key, nearness
 from app.jobs.worker import Worker
 from core.errors import Cancelled, MorphError
 from core.model import Document
+from core.model.outline import Array
 from core.morph.scene import TimedSpan, timed_span_of
-from core.progress import Progress
 
 if TYPE_CHECKING:
-    from core.morph.morph import Morph
+    from app.jobs.frames import Instant
     from core.morph.soundness import FrameCheck, SpanCheck
-
-Check = Callable[[TimedSpan, "Morph", float, Progress], "SpanCheck"]
-"""Looks at the frames of a span, those near a frame first."""
 
 REMEMBERED = 64
 """Checks kept beyond those of the document as it is, so that undo shows at once."""
@@ -49,17 +48,26 @@ class Standing(Enum):
     """Some of its frames fold or cross, or its ends are not as drawn."""
 
 
-def check_outwards(span: TimedSpan, morph: Morph, frame: float, progress: Progress) -> SpanCheck:
-    """Look at every frame of a span, those near a frame first."""
-    from core.morph.soundness import check_span  # what it loads a solve has loaded before
+class _Search:
+    """How far the look at a span has come."""
 
-    frames = sorted(span.frames(), key=lambda entry: abs(entry[0] - frame))
-    return check_span(span.span, morph, frames, progress)
+    def __init__(self, span: TimedSpan) -> None:
+        self.unseen = dict(span.frames())
+        """s by number."""
+        self.seen: dict[int, FrameCheck] = {}
+
+    def note(self, checks: Iterable[FrameCheck]) -> None:
+        """Take note of frames that were looked at."""
+        for check in checks:
+            self.seen[check.frame] = check
+            self.unseen.pop(check.frame, None)
 
 
 class Inspector(QObject):
     """Checks what the solver has solved, while the solver rests.
 
+    The frames that it makes for that are kept, nearest to the playhead first, so that they are
+    ready when they are to be shown. One that is missing on screen comes before all others.
     A verdict belongs to a span by value, its timing included: whatever changes the span takes the
     verdict away at once.
     """
@@ -73,27 +81,31 @@ class Inspector(QObject):
         selection: Selection,
         playhead: Playhead,
         solver: Solver,
-        check: Check = check_outwards,
+        frames: Frames,
+        look: Look = look,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session, self._selection, self._playhead = session, selection, playhead
-        self._solver, self._check = solver, check
+        self._solver, self._frames, self._look = solver, frames, look
         self._document: Document | None = None
         self._spans: dict[Key, TimedSpan] = {}
         """Those of that document."""
         self._standings: dict[Key, Standing] = {}
+        self._searches: dict[TimedSpan, _Search] = {}
+        """Those that have begun and not ended."""
         self._outcomes: Remembered[TimedSpan, SpanCheck | MorphError] = Remembered(REMEMBERED)
-        self._job: TimedSpan | None = None
+        self._job: Task | Instant | None = None
+        """Frames that are looked at, or one that is missing on screen."""
         self._worker = Worker("inspector", self)
         self._worker.done.connect(self._on_done)
-        for signal in (session.changed, solver.updated, solver.busy_changed):
+        for signal in self._followed():
             signal.connect(self._advance)
         self._advance()
 
     @property
     def busy(self) -> bool:
-        """Whether frames are being looked at."""
+        """Whether frames are being made or looked at."""
         return self._job is not None
 
     def standing(self, layer_id: int, index: int) -> Standing:
@@ -108,13 +120,21 @@ class Inspector(QObject):
 
     def frame_check(self, layer_id: int, frame: float) -> FrameCheck | None:
         """Return what was seen in a frame of a layer; between frames, in the worse neighbour."""
-        index, _ = self._session.document.layer(layer_id).span_at(frame)
-        check = self.check(layer_id, index)
-        if check is None:
+        key = layer_id, self._session.document.layer(layer_id).span_at(frame)[0]
+        if (span := self._spans.get(key)) is None:
             return None
-        frame = min(max(frame, check.frames[0].frame), check.frames[-1].frame)
-        beside = (seen for seen in check.frames if abs(seen.frame - frame) < 1)
+        frame = min(max(float(frame), span.first), span.last)
+        beside = [seen for seen in self._seen(key) if abs(seen.frame - frame) < 1]
+        if len(beside) < (1 if frame == int(frame) else 2):
+            return None
         return max(beside, key=lambda seen: seen.folds + seen.crossings)
+
+    def _seen(self, key: Key) -> Collection[FrameCheck]:
+        """Return what was seen in the frames of a span so far."""
+        if self.standing(*key) is Standing.CHECKING:
+            return self._search(key).seen.values()
+        check = self.check(*key)
+        return () if check is None else check.frames
 
     def error(self, layer_id: int, index: int) -> MorphError | None:
         """Return why a span could not be solved or checked."""
@@ -128,25 +148,35 @@ class Inspector(QObject):
         """Stop checking and end the thread."""
         if self._worker.closed:
             return
-        for signal in (self._session.changed, self._solver.updated, self._solver.busy_changed):
+        for signal in self._followed():
             signal.disconnect(self._advance)
         self._worker.close()
 
     # -- the flow ------------------------------------------------------------------------------
 
+    def _followed(self) -> tuple[SignalInstance, ...]:
+        return (
+            self._session.changed,
+            self._solver.updated,
+            self._solver.busy_changed,
+            self._frames.missed,
+        )
+
     def _advance(self) -> None:
-        """Bring the standings up to date, end a check that nobody wants, and begin the next."""
+        """Bring the standings up to date, end a look that nobody wants, and begin the next."""
         self._look_at_document()
         standings = {key: self._standing(key, span) for key, span in self._spans.items()}
         waiting = [key for key, found in standings.items() if found is Standing.CHECKING]
-        if self._job is not None:
-            if self._solver.busy or all(self._spans[key] != self._job for key in waiting):
-                self._worker.cancel()
-        elif not self._solver.busy:
+        if self._job is None:
             self._begin(waiting)
+        elif isinstance(self._job, Task) and not self._wanted(self._job.span, waiting):
+            self._worker.cancel()
         if standings != self._standings:
             self._standings = standings
             self.changed.emit()
+
+    def _wanted(self, span: TimedSpan, waiting: list[Key]) -> bool:
+        return not self._solver.busy and any(self._spans[key] == span for key in waiting)
 
     def _look_at_document(self) -> None:
         if self._document is not self._session.document:
@@ -156,21 +186,62 @@ class Inspector(QObject):
                 for layer in self._document.layers
                 for index in range(layer.spans)
             }
+            there = frozenset(self._spans.values())
+            self._searches = {s: found for s, found in self._searches.items() if s in there}
 
     def _begin(self, waiting: list[Key]) -> None:
-        key = most_urgent(waiting, self._session.document, self._selection, self._playhead)
-        if key is None:
-            return
-        self._job = self._spans[key]
-        morph = self._solver.morph_of(self._job.span)
-        self._worker.start(partial(self._check, self._job, morph, self._playhead.frame))
+        """Make the frame that is missing on screen, or else look at more of what is solved."""
+        if (missing := self._frames.missing) is not None:
+            self._job = missing
+            self._worker.start(partial(make, *missing))
+        elif waiting and not self._solver.busy:
+            self._job = self._most_urgent(waiting)
+            self._worker.start(partial(self._look, self._job))
 
-    def _on_done(self, _number: int, outcome: SpanCheck | MorphError | Cancelled) -> None:
-        assert self._job is not None
+    def _most_urgent(self, waiting: list[Key]) -> Task:
+        """Return what to look at next: of the current layer, soon seen."""
+        current, soon = self._selection.layer, nearness(self._playhead)
+
+        def urgency(key: Key) -> tuple[bool, float]:
+            return self._session.document.layer(key[0]) is not current, min(
+                map(soon, self._search(key).unseen)
+            )
+
+        span = self._spans[min(waiting, key=urgency)]
+        search, morph = self._searches[span], self._solver.morph_of(span.span)
+        assert morph is not None, "what is checked is solved"
+        unseen = sorted(search.unseen.items(), key=lambda frame: soon(frame[0]))
+        made = self._frames.made(morph)
+        return Task(span, morph, tuple(search.seen.values()), tuple(unseen), made)
+
+    def _search(self, key: Key) -> _Search:
+        span = self._spans[key]
+        if span not in self._searches:
+            self._searches[span] = _Search(span)
+        return self._searches[span]
+
+    def _on_done(
+        self, _number: int, outcome: Sight | Mapping[float, Array] | MorphError | Cancelled
+    ) -> None:
         job, self._job = self._job, None
-        if not isinstance(outcome, Cancelled):
-            self._outcomes.put(job, outcome, frozenset(self._spans.values()))
+        if isinstance(job, Task):
+            self._note(job, outcome)
+        elif job is not None:
+            if isinstance(outcome, Mapping):
+                self._frames.keep(job[0], outcome)
+            self._frames.give_up(job)
         self._advance()
+
+    def _note(self, task: Task, sight: Sight | MorphError | Cancelled) -> None:
+        outcome = sight
+        if isinstance(sight, Sight):
+            self._frames.keep(task.morph, sight.frames)
+            if (search := self._searches.get(task.span)) is not None:
+                search.note(sight.checks)
+            outcome = sight.verdict
+        if outcome is not None and not isinstance(outcome, Cancelled):
+            self._searches.pop(task.span, None)
+            self._outcomes.put(task.span, outcome, frozenset(self._spans.values()))
 
     def _standing(self, key: Key, span: TimedSpan) -> Standing:
         match self._solver.state(*key):

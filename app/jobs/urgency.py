@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from app.document.playhead import Playhead
 from app.document.selection import Selection
@@ -23,3 +23,19 @@ def most_urgent(
         return layer is not current, layer.span_at(frame)[0] != key[1], key[1]
 
     return min(keys, key=urgency, default=None)
+
+
+def nearness(playhead: Playhead) -> Callable[[float], float]:
+    """Return a function that tells how soon a frame will be seen, in frames.
+
+    While playing those ahead come first, to the end of the range and on from its start.
+    """
+    here, (first, last) = playhead.frame, playhead.range
+
+    def ahead(frame: float) -> float:
+        return frame - here if frame >= here else last - here + frame - first
+
+    def around(frame: float) -> float:
+        return abs(frame - here)
+
+    return ahead if playhead.playing else around

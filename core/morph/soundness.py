@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import attrgetter
 from time import perf_counter
+from typing import Self
 
 import numpy as np
 import shapely
@@ -32,6 +33,8 @@ class FrameCheck:
     """Pairs of boundary edges that cross; touching counts as one."""
     places: Array
     """(k, 2) where: the middle of each folded triangle, then each crossing."""
+    seconds: float = 0.0
+    """What it took to make."""
 
     @property
     def sound(self) -> bool:
@@ -47,9 +50,18 @@ class SpanCheck:
     source_error: float
     """Largest distance between at(0) and the drawn source, as a fraction of its diagonal."""
     target_error: float
-    seconds_per_frame: float
     tolerance: float = END_TOLERANCE
     """How much of an error is no fault: outlines that were repaired are off by that."""
+
+    @classmethod
+    def of(cls, span: Span, morph: Morph, checks: Sequence[FrameCheck]) -> Self:
+        """Take together what was seen in every frame, in any order, and look at the ends."""
+        return cls(
+            tuple(sorted(checks, key=attrgetter("frame"))),
+            _end_error(span.source, morph, 0.0),
+            _end_error(span.target, morph, 1.0),
+            END_TOLERANCE + max((repair.moved for repair in morph.report.repairs), default=0.0),
+        )
 
     @property
     def exact(self) -> bool:
@@ -61,6 +73,11 @@ class SpanCheck:
         """Whether nothing is wrong."""
         return self.exact and all(frame.sound for frame in self.frames)
 
+    @property
+    def seconds_per_frame(self) -> float:
+        """What a frame took to make, on average."""
+        return sum(frame.seconds for frame in self.frames) / max(len(self.frames), 1)
+
 
 def check_span(
     span: Span,
@@ -69,20 +86,14 @@ def check_span(
     progress: Progress = silent,
 ) -> SpanCheck:
     """Look at a span's frames, in the order in which (number, s) lists them."""
-    checks, seconds = [], 0.0
+    checks = []
     for done, (frame, s) in enumerate(frames):
         progress(done / len(frames), "checking")
         start = perf_counter()
         points = morph.at(s)
-        seconds += perf_counter() - start
-        checks.append(check_frame(frame, morph, points))
-    return SpanCheck(
-        tuple(sorted(checks, key=attrgetter("frame"))),
-        _end_error(span.source, morph, 0.0),
-        _end_error(span.target, morph, 1.0),
-        seconds / max(len(checks), 1),
-        END_TOLERANCE + max((repair.moved for repair in morph.report.repairs), default=0.0),
-    )
+        seconds = perf_counter() - start
+        checks.append(replace(check_frame(frame, morph, points), seconds=seconds))
+    return SpanCheck.of(span, morph, checks)
 
 
 def check_frame(frame: int, morph: Morph, points: Array) -> FrameCheck:

@@ -5,22 +5,23 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Iterator
 
-import numpy as np
 import pytest
 from PySide6.QtCore import QObject, QStandardPaths, QThread
 
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
+from app.jobs import looking
 from app.jobs.collector import Collector
-from app.jobs.inspector import Check, Inspector, check_outwards
+from app.jobs.frames import Frames
+from app.jobs.inspector import Inspector
+from app.jobs.looking import Look
 from app.jobs.solver import Solve, Solver
 from app.jobs.suggestions import Suggestions
 from app.workspace import ViewOptions, Workspace
 from core.model import Document
-from core.morph.scene import TimedSpan, solve_span
-from core.morph.soundness import FrameCheck, SpanCheck
-from core.progress import Progress
+from core.morph.scene import solve_span
+from tests.app.eye import Eye
 
 QStandardPaths.setTestModeEnabled(True)
 
@@ -47,28 +48,25 @@ def _runs(thread: QThread) -> bool:
         return False
 
 
-def find_nothing(span: TimedSpan, morph: object, frame: float, progress: Progress) -> SpanCheck:
-    """Find every frame sound, whatever a test has for a morph."""
-    nothing = tuple(FrameCheck(k, 0, 0, np.empty((0, 2))) for k, _ in span.frames())
-    return SpanCheck(nothing, 0.0, 0.0, 0.0)
-
-
 @pytest.fixture
 def open_workspace(qapp: QObject) -> Iterator[Callable[..., Workspace]]:
-    """Open a workspace on a document, with functions to solve and to check of the test's choice."""
+    """Open a workspace on a document, with functions to solve and to look of the test's choice."""
     opened: list[Workspace] = []
 
     def open_it(
-        document: Document | None = None, solve: Solve = solve_span, check: Check | None = None
+        document: Document | None = None, solve: Solve = solve_span, look: Look | None = None
     ) -> Workspace:
         session = Session(document)
         selection, playhead = Selection(session), Playhead(session)
         solver = Solver(session, selection, playhead, solve)
-        check = check or (check_outwards if solve is solve_span else find_nothing)
-        inspector = Inspector(session, selection, playhead, solver, check)
+        frames = Frames()
+        look = look or (looking.look if solve is solve_span else Eye())
+        inspector = Inspector(session, selection, playhead, solver, frames, look)
         view = ViewOptions()
         suggestions = Suggestions(session, selection, playhead, solver, view)
-        opened.append(Workspace(session, selection, playhead, solver, inspector, view, suggestions))
+        opened.append(
+            Workspace(session, selection, playhead, solver, frames, inspector, view, suggestions)
+        )
         return opened[-1]
 
     yield open_it

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 
 import numpy as np
 
+from app.jobs.looking import Sight, Task
 from core.errors import SolveError
 from core.morph.scene import TimedSpan
 from core.morph.soundness import FrameCheck, SpanCheck
@@ -19,21 +21,23 @@ class Eye:
     """Looks at nothing, and says what the test wants to hear."""
 
     def __init__(self, *crossing: int) -> None:
-        self.seen: list[tuple[TimedSpan, float]] = []
+        self.seen: list[tuple[TimedSpan, int]] = []
+        """Each span that was looked at, and the frame that was the most urgent."""
         self.crossing = set(crossing)
         self.broken = False
+        self.listen: Callable[[Task], None] = lambda task: None
         self.gate = threading.Event()
         self.gate.set()
 
-    def __call__(
-        self, span: TimedSpan, morph: object, frame: float, progress: Progress
-    ) -> SpanCheck:
-        self.seen.append((span, frame))
+    def __call__(self, task: Task, progress: Progress) -> Sight:
+        self.seen.append((task.span, task.unseen[0][0]))
+        self.listen(task)
         while not self.gate.wait(0.001):
             progress(0.5, "checking")
         if self.broken:
             raise SolveError("The frames could not be looked at.")
-        return SpanCheck(tuple(self._look(k) for k, _ in span.frames()), 0.0, 0.0, 0.0)
+        checks = tuple(self._look(k) for k, _ in sorted(task.unseen))
+        return Sight({}, checks, SpanCheck(checks, 0.0, 0.0))
 
     def _look(self, frame: int) -> FrameCheck:
         crosses = frame in self.crossing

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.jobs.inspector import REMEMBERED, Standing, check_outwards
+from app.jobs import looking
+from app.jobs.inspector import REMEMBERED, Standing
+from app.jobs.looking import Sight, Task
 from app.verdict import describe_span, troubled_frames
 from app.workspace import Workspace
 from core.errors import SolveError
@@ -36,9 +37,13 @@ def document(*frames: int) -> Document:
     return Document((Layer(1, "layer", tuple(keys)),))
 
 
-def solve(span: Span, progress: Progress) -> object:
+class Nothing:
+    """A solution that nobody looks at."""
+
+
+def solve(span: Span, progress: Progress) -> Nothing:
     """Solve nothing, at once."""
-    return object()
+    return Nothing()
 
 
 @pytest.fixture
@@ -128,21 +133,39 @@ def test_a_crossing_is_told_with_its_frames_and_their_places(
     assert inspector.frame_check(1, 99).frame == 25
 
 
-def test_frames_near_the_playhead_are_looked_at_first(workspace: Workspace, qtbot: QtBot) -> None:
-    span = timed_span_of(workspace.session.document.layer(1), 0)
-    told: list[float] = []
+def test_frames_near_the_playhead_are_looked_at_first_and_ahead_of_it_while_playing(
+    workspace: Workspace, eye: Eye, qtbot: QtBot
+) -> None:
+    orders: list[list[int]] = []
+    eye.listen = lambda task: orders.append([number for number, _ in task.unseen])
+    qtbot.waitUntil(stands(workspace, Standing.SOUND, 1))
+    orders.clear()
+    workspace.playhead.move_to(7)
+    nudge(workspace)
+    qtbot.waitUntil(stands(workspace, Standing.SOUND))
+    assert set(orders[0][:3]) == {6, 7, 8}
+    workspace.playhead.play()
+    nudge(workspace)
+    qtbot.waitUntil(lambda: len(orders) == 2)
+    workspace.playhead.stop()
+    here = orders[1][0]
+    assert orders[1] == [*range(here, 14), *range(1, here)]
 
-    class Still:
-        triangles, rings = np.array([[0, 1, 2]]), (np.arange(3),)
-        rest = target = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
-        report = SimpleNamespace(repairs=())
 
-        def at(self, s: float) -> np.ndarray:
-            told.append(s)
-            return self.rest
+def test_a_look_ends_after_a_while_with_what_it_has_and_another_finishes_it(
+    open_workspace: Callable[..., Workspace], monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(looking, "PIECE", 0.0)
+    tasks: list[Task] = []
 
-    check_outwards(span, Still(), 7.0, lambda fraction, stage: None)
-    assert told[:3] == pytest.approx([6 / 12, 5 / 12, 7 / 12])
+    def look(task: Task, progress: Progress) -> Sight:
+        tasks.append(task)
+        return looking.look(task, progress)
+
+    workspace = open_workspace(document(1, 13), solve_span, look)
+    qtbot.waitUntil(stands(workspace, Standing.SOUND), timeout=20_000)
+    assert [len(task.unseen) for task in tasks] == [*range(13, 0, -1)]
+    assert [seen.frame for seen in workspace.inspector.check(1, 0).frames] == [*range(1, 14)]
 
 
 def test_the_span_under_the_playhead_is_checked_first_and_nothing_while_solving(
@@ -150,9 +173,9 @@ def test_the_span_under_the_playhead_is_checked_first_and_nothing_while_solving(
 ) -> None:
     gate = threading.Event()
 
-    def slow(span: Span, progress: Progress) -> object:
+    def slow(span: Span, progress: Progress) -> Nothing:
         gate.wait()
-        return object()
+        return Nothing()
 
     workspace = open_workspace(document(1, 13, 25), slow, eye)
     workspace.playhead.move_to(20)
@@ -160,7 +183,7 @@ def test_the_span_under_the_playhead_is_checked_first_and_nothing_while_solving(
     assert workspace.inspector.standing(1, 0) is Standing.SOLVING
     gate.set()
     qtbot.waitUntil(stands(workspace, Standing.SOUND, 0))
-    assert [(span.first, frame) for span, frame in eye.seen] == [(13, 20), (1, 20)]
+    assert [(span.first, frame) for span, frame in eye.seen] == [(13, 20), (1, 13)]
 
 
 def test_a_check_ends_when_its_span_changes(workspace: Workspace, eye: Eye, qtbot: QtBot) -> None:
@@ -200,10 +223,10 @@ def test_cancelled_solving_leaves_a_span_stale_and_a_hidden_one_unknown(
     gate = threading.Event()
     gate.set()
 
-    def slow(span: Span, progress: Progress) -> object:
+    def slow(span: Span, progress: Progress) -> Nothing:
         while not gate.wait(0.001):
             progress(0.5, "")
-        return object()
+        return Nothing()
 
     workspace = open_workspace(document(1, 13), slow, eye)
     qtbot.waitUntil(stands(workspace, Standing.SOUND))

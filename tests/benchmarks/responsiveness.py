@@ -123,8 +123,8 @@ def ends_after(seconds: float) -> Callable[[], bool]:
 
 def report_cancel(pairs: list[Pair]) -> None:
     """Print how long work runs on after it was cancelled, and its longest deaf stretches."""
-    from app.jobs.inspector import check_outwards
     from core.morph.pipeline import solve_outlines
+    from core.morph.soundness import check_span
 
     print("\nmilliseconds from cancel to stopped, and the longest stretches without a look")
     print(f"{'':<28}{'work':>8}{'p50':>8}{'max':>8}   longest stretches, by stage")
@@ -137,7 +137,7 @@ def report_cancel(pairs: list[Pair]) -> None:
 
         print_cancel(pair.name, solve)
         morph = solve_span(span)
-        print_cancel("  its check", partial(check_outwards, timed, morph, 1.0))
+        print_cancel("  its check", partial(check_span, span, morph, timed.frames()))
 
 
 def print_cancel(name: str, work: Callable[[core.Progress], object]) -> None:

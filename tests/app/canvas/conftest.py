@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -40,19 +41,28 @@ def a_document(*, marks: bool = True, target: bool = True) -> Document:
     return Document((Layer(1, "Card", tuple(keys), ("a", "b") if marks else ()),))
 
 
-def fan(span: Span, progress: Progress) -> SimpleNamespace:
-    """Solve a span in no time: 48 points on each exterior, and a fan of triangles."""
-    ends = [resample(flatten(outline)[0].points, 48) for outline in (span.source, span.target)]
-    rest, target = (np.vstack([end, end.mean(axis=0)]) for end in ends)
-    ring = np.arange(48)
-    return SimpleNamespace(
-        triangles=np.column_stack([ring, np.roll(ring, -1), np.full(48, 48)]),
-        rest=rest,
-        target=target,
-        rings=(ring,),
-        at=lambda s: (1 - s) * rest + s * target,
-        report=SimpleNamespace(proposed=()),
+@dataclass(frozen=True, eq=False)
+class Fan:
+    """A solution of 48 points on each exterior, and a fan of triangles."""
+
+    rest: np.ndarray
+    target: np.ndarray
+    rings: ClassVar = (np.arange(48),)
+    triangles: ClassVar = np.column_stack(
+        [np.arange(48), np.roll(np.arange(48), -1), np.full(48, 48)]
     )
+    report: ClassVar = SimpleNamespace(proposed=())
+
+    def at(self, s: float) -> np.ndarray:
+        return (1 - s) * self.rest + s * self.target
+
+    plain = at
+
+
+def fan(span: Span, progress: Progress) -> Fan:
+    """Solve a span in no time."""
+    ends = [resample(flatten(outline)[0].points, 48) for outline in (span.source, span.target)]
+    return Fan(*(np.vstack([end, end.mean(axis=0)]) for end in ends))
 
 
 @dataclass

@@ -363,7 +363,7 @@ def test_the_place_of_a_crossing_is_ringed_at_its_frames_until_the_span_changes(
 ) -> None:
     eye = Eye(7, 8)
     document = update_layer(a_document(marks=False), 1, style=RED)
-    hand = open_canvas(document, check=eye)
+    hand = open_canvas(document, look=eye)
     inspector = hand.workspace.inspector
     qtbot.waitUntil(lambda: inspector.standing(1, 0) is Standing.UNSOUND)
     rings = hand.pane(BETWEEN).trouble_rings
