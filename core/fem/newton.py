@@ -105,6 +105,14 @@ class Terms:
     hessian: Array
     """(21, m) upper triangles, positive semidefinite."""
 
+    def __add__(self, other: Terms) -> Terms:
+        """Return the terms of both energies' sum, over the same triangles."""
+        return Terms(
+            self.energy + other.energy,
+            self.gradient + other.gradient,
+            self.hessian + other.hessian,
+        )
+
 
 def density_terms(elements: Elements, density: Density, x: Array) -> Terms:
     """Return Σ A ψ at positions x (n, 2), its Hessian projected."""

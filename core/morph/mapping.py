@@ -1,8 +1,9 @@
 """A mesh of the source, and where its vertices go in the target, without a fold.
 
 The direct route triangulates the source and places the inner vertices by energy. Where that leaves
-folds, a mesh that fits both outlines from the start takes its place. Around triangles that are poor
-at either end the mesh is then changed until they are fair.
+folds, a mesh that fits both outlines from the start takes its place. Where a few triangles are poor
+at either end, the mesh is changed around them; where that does not do, all of it is made even at
+both ends, and both ends of it are brought to rest.
 """
 
 from __future__ import annotations
@@ -21,8 +22,10 @@ from core.geometry.triangulation import Mesh, split_chords, triangulate
 from core.model import Recipe
 from core.model.outline import Array
 from core.morph.compatible.cleanup import coarsen, improve
+from core.morph.compatible.flips import flip
 from core.morph.compatible.joint import JointMesh
 from core.morph.compatible.overlay import compatible_mesh
+from core.morph.compatible.settling import settle_both
 from core.morph.compatible.widening import FAIR, widen
 from core.morph.placement import place, settle
 from core.morph.quality import distortion
@@ -83,6 +86,11 @@ class Map:
         return float(np.average(bounded, weights=self._elements.areas))
 
     @property
+    def worst_quality(self) -> float:
+        """Quality of the worst triangle at the worse end, see ``joint``."""
+        return float(self.joint().worse.min())
+
+    @property
     def turn(self) -> float:
         """How far the shape turns as a whole, in (-π, π]."""
         turn, _ = turn_and_mirror(self._elements.deformation_gradients(self.target))
@@ -105,6 +113,7 @@ def direct_map(
     watch("mesh")
     # rounded, so that equal shapes get equal meshes wherever they are drawn
     coarse = triangulate([np.round(ring, 10) for ring in source], _max_area(recipe))
+    coarse.points[: coarse.boundary_size] = np.concatenate(source)
     mesh = split_chords(coarse)
     log.note("mesh", f"{len(mesh.points) - len(coarse.points)} chords split")
     placed = place(mesh, np.concatenate(target), recipe, watch)
@@ -118,11 +127,12 @@ def mended_map(
 
     The rings are those it was made of. A map without faults is returned as it is.
     """
+    if direct.sound:
+        wide = _widened(direct, watch)
+        if wide.worst_quality >= FAIR and wide.mean <= SLIGHTLY * direct.mean:
+            return wide
     sound = direct if direct.sound else _refitted(direct, source, target, recipe, watch)
-    wide = _widened(sound, watch)
-    if direct.sound and wide.mean <= SLIGHTLY * direct.mean:
-        return wide
-    return _polished(wide, recipe, watch)
+    return _polished(sound, recipe, watch)
 
 
 def _refitted(
@@ -130,11 +140,10 @@ def _refitted(
 ) -> Map:
     """Return a map on a mesh that fits both outlines from the start."""
     log = _Log(direct.stages)
-    mesh, image = coarsen(*compatible_mesh(source, target, watch), watch)
-    log.note("joint mesh", f"{len(mesh.triangles)} triangles that fit both outlines")
-    mesh, image = improve(mesh, image, _max_area(recipe), watch)
-    found = Map.of(mesh, image, direct.iterations)
-    return log.map("clean-up", found, f"{len(mesh.triangles)} triangles")
+    mesh, image = compatible_mesh(source, target, watch)
+    joint = coarsen(JointMesh.of(mesh, image), watch)
+    found = Map.of(*joint.apart(mesh.rings), direct.iterations)
+    return log.map("joint mesh", found, f"{len(joint.triangles)} triangles that fit both outlines")
 
 
 def _widened(found: Map, watch: Watch) -> Map:
@@ -150,17 +159,25 @@ def _widened(found: Map, watch: Watch) -> Map:
 
 
 def _polished(found: Map, recipe: Recipe, watch: Watch) -> Map:
-    """Return a map at the minimum of the energy, its angles as wide as is cheap there."""
+    """Return a map at the minimum of the energy on a mesh that is even at both ends, its angles as
+    wide as is cheap there.
+    """
     log = _Log(found.stages)
-    settled = settle(found.mesh, found.target, recipe, watch)
-    found = Map.of(found.mesh, settled.target, found.iterations + settled.iterations)
+    joint = settle_both(improve(found.joint(), _max_area(recipe), watch), watch)
+    joint = settle_both(flip(joint, passes=3), watch)
+    if joint.worse.min() < FAIR:
+        joint = settle_both(widen(joint, watch=watch), watch)
+    found = found.on(joint)
+    if recipe.material == "st-venant-kirchhoff":
+        settled = settle(found.mesh, found.target, recipe, watch)
+        found = Map.of(found.mesh, settled.target, found.iterations + settled.iterations)
     dearest = COSTLY * found.mean
     for aim in (0.1, 0.2, FAIR):
         wider = found.on(widen(found.joint(), aim, watch))
         if wider.mean > dearest:
             break
         found = wider
-    return log.map("polish", found, f"worst quality {found.joint().worse.min():.3f}")
+    return log.map("polish", found, f"worst quality {found.worst_quality:.3f}")
 
 
 def _max_area(recipe: Recipe) -> float:

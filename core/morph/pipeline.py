@@ -57,10 +57,11 @@ def solve_outlines(
     choice = choose(rivals, frames, recipe, clock.watch)
     taken, found = choice.taken, choice.map
     clock.start("in-between", 0.9)
-    mesh, b = found.mesh, found.mesh.boundary_size
+    mesh = found.mesh
     rest, goal = here.outside(mesh.points), there.outside(found.target)
-    rest[:b] = np.concatenate([pair.source for pair in taken.boundaries])
-    goal[:b] = np.concatenate([pair.target for pair in taken.boundaries])
+    drawn = sum(len(pair.source) for pair in taken.boundaries)  # what was added follows them
+    rest[:drawn] = np.concatenate([pair.source for pair in taken.boundaries])
+    goal[:drawn] = np.concatenate([pair.target for pair in taken.boundaries])
     goal_inside = here.inside(goal)
     inbetween = _inbetween(recipe, mesh.points, goal_inside, mesh.triangles, clock.watch)
     clock.stop()

@@ -12,7 +12,7 @@ import numpy as np
 from core.fem.elements import Elements
 from core.fem.energies import SymmetricDirichlet
 from core.fem.newton import FreeVertices, line_search, newton_step
-from core.geometry.triangulation import Indices, Mesh, split_edges, unique_edges
+from core.geometry.triangulation import Indices, unique_edges
 from core.model.outline import Array
 from core.morph.compatible.flips import flip
 from core.morph.compatible.joint import JointMesh
@@ -36,13 +36,13 @@ FLAT = 1e-12
 """Where a triangle's quality is less, Newton's method would drown in rounding errors."""
 
 
-def coarsen(mesh: Mesh, target: Array, watch: Watch = unwatched) -> tuple[Mesh, Array]:
-    """Return a mesh with few inner vertices, and target positions (n, 2) of its vertices.
+def coarsen(joint: JointMesh, watch: Watch = unwatched) -> JointMesh:
+    """Return a mesh with few inner vertices.
 
     Made for overlays, whose crossings crowd where the shapes differ most. ``watch(stage)`` is
     called before every step and may raise ``Cancelled``.
     """
-    joint = flip(JointMesh.of(mesh, target), passes=20)
+    joint = flip(joint, passes=20)
     for _ in range(COARSENINGS):
         watch("clean-up")
         inner = len(joint.points) - joint.boundary_size
@@ -51,27 +51,24 @@ def coarsen(mesh: Mesh, target: Array, watch: Watch = unwatched) -> tuple[Mesh, 
         joint = flip(smooth(joint), passes=3)
         if len(joint.points) - joint.boundary_size > 0.98 * inner - 1:
             break
-    return joint.apart(mesh.rings)
+    return joint
 
 
-def improve(
-    mesh: Mesh, target: Array, max_area: float, watch: Watch = unwatched
-) -> tuple[Mesh, Array]:
-    """Return a better mesh of the same boundary, and target positions (n, 2) of its vertices.
+def improve(joint: JointMesh, max_area: float, watch: Watch = unwatched) -> JointMesh:
+    """Return a better mesh of the same boundary.
 
     Source and target have about unit area. Inside, triangles get about ``max_area``; near short
     boundary edges they are smaller. ``watch(stage)`` is called before every round and may raise
     ``Cancelled``.
     """
     size = float(np.sqrt(max_area * 4 / np.sqrt(3)))
-    joint = JointMesh.of(mesh, target)
     for _ in range(ROUNDS):
         watch("clean-up")
         joint = smooth(_refined(_thinned(joint, size), size))
         for _ in range(2):
             joint = smooth(flip(joint, passes=3))
         joint = flip(_relaxed(flip(joint, passes=2), size), passes=3)
-    return joint.apart(mesh.rings)
+    return joint
 
 
 def _thinned(mesh: JointMesh, size: float) -> JointMesh:
@@ -93,8 +90,7 @@ def _refined(mesh: JointMesh, size: float) -> JointMesh:
     edges, _, count = unique_edges(mesh.triangles)
     wanted = _wanted_sizes(mesh, size)[edges].mean(axis=1)
     long = (count == 2) & (mesh.lengths(*edges.T) > LONG * wanted)
-    points, triangles = split_edges(mesh.points, mesh.triangles, long)
-    return JointMesh(points, triangles, mesh.boundary_size)
+    return mesh.split(long)
 
 
 def _wanted_sizes(mesh: JointMesh, size: float) -> Array:

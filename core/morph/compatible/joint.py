@@ -5,14 +5,16 @@ Points are complex numbers, one column an end, so that one line of arithmetic se
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.geometry.rotation import Complex
-from core.geometry.triangulation import Indices, Mesh
+from core.geometry.triangulation import Indices, Mesh, split_edges, unique_edges
 from core.model.outline import Array
 
 EDGES = "tail", "head", "apex", "twins", "stars"
@@ -23,7 +25,10 @@ TINY = 1e-300
 
 @dataclass(frozen=True, eq=False)
 class JointMesh:
-    """Triangles that are positive at both ends. Boundary vertices come first and never move."""
+    """Triangles that are positive at both ends. Boundary vertices come first and never move.
+
+    Its border may be cut into shorter edges, but stays where it is.
+    """
 
     points: Complex
     """(n, 2) each vertex in the source and in the target."""
@@ -49,14 +54,47 @@ class JointMesh:
         """Return it with other triangles."""
         return JointMesh(self.points, triangles, self.boundary_size)
 
+    def split(self, chosen: NDArray[np.bool_]) -> JointMesh:
+        """Return it with edges (e,), as ``unique_edges`` numbers them, split at their midpoints.
+
+        Vertices keep their numbers, but for inner ones where border edges are split.
+        """
+        n, b = len(self.points), self.boundary_size
+        points, triangles = split_edges(self.points, self.triangles, chosen)
+        _, _, count = unique_edges(self.triangles)
+        border = count[chosen] == 1
+        middle = np.arange(n, len(points))
+        order = np.concatenate([np.arange(b), middle[border], np.arange(b, n), middle[~border]])
+        number = np.empty_like(order)
+        number[order] = np.arange(len(order))
+        return JointMesh(points[order], number[triangles], b + int(np.count_nonzero(border)))
+
     def end(self, which: int) -> Array:
         """Return positions (n, 2) in the source (0) or the target (1)."""
         z = self.points[:, which]
         return np.column_stack([z.real, z.imag])
 
     def apart(self, rings: tuple[Indices, ...]) -> tuple[Mesh, Array]:
-        """Return the mesh of the source, with its boundary, and the target positions (n, 2)."""
+        """Return the mesh of the source and the target positions (n, 2).
+
+        ``rings`` are those that it had before border edges were split.
+        """
+        if sum(map(len, rings)) < self.boundary_size:
+            rings = self._rings([int(ring[0]) for ring in rings])
         return Mesh(self.end(0), self.triangles, rings), self.end(1)
+
+    def _rings(self, starts: Sequence[int]) -> tuple[Indices, ...]:
+        """Follow the border from vertices on it."""
+        border = np.ones(len(self.tail), bool)
+        border[self.twins] = False
+        after = dict(zip(self.tail[border].tolist(), self.head[border].tolist(), strict=True))
+        rings = []
+        for start in starts:
+            ring = [start]
+            while (following := after[ring[-1]]) != start:
+                ring.append(following)
+            rings.append(np.array(ring))
+        return tuple(rings)
 
     @cached_property
     def quality(self) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.geometry.triangulation import split_edges, unique_edges
+from core.geometry.triangulation import unique_edges
 from core.morph.compatible.flips import flip
 from core.morph.compatible.joint import JointMesh
 from core.morph.compatible.nudging import nudge
@@ -31,13 +31,18 @@ def widen(mesh: JointMesh, aim: float = FAIR, watch: Watch = unwatched) -> Joint
                 return best
             watch("angles")
             mesh = change(mesh, aim)
-            best = max(best, mesh, key=_worst)
+            best = max(best, mesh, key=lambda each: (_worst(each), -_poor(each, aim)))
         mesh = _split(mesh, aim)
     return best
 
 
 def _worst(mesh: JointMesh) -> float:
     return float(mesh.worse.min())
+
+
+def _poor(mesh: JointMesh, aim: float) -> float:
+    """By how much triangles miss the quality aimed at, in sum."""
+    return float(np.maximum(aim - mesh.worse, 0).sum())
 
 
 def _tended(mesh: JointMesh, aim: float) -> JointMesh:
@@ -52,12 +57,12 @@ def _thinned(mesh: JointMesh, aim: float) -> JointMesh:
 
 
 def _split(mesh: JointMesh, aim: float) -> JointMesh:
-    """Split the longest inner edge of each poor triangle."""
-    edges, sides, count = unique_edges(mesh.triangles)
-    length = np.where(count == 2, mesh.lengths(*edges.T), 0)
-    poor = sides[mesh.worse < aim]
-    longest = np.take_along_axis(poor, length[poor].argmax(axis=1)[:, None], axis=1)
+    """Split the edge of each poor triangle that is longest where the triangle is poorest."""
+    edges, sides, _ = unique_edges(mesh.triangles)
+    length = np.abs(mesh.points[edges[:, 0]] - mesh.points[edges[:, 1]])
+    poor = mesh.worse < aim
+    end = mesh.quality[poor].argmin(axis=1)[:, None]
+    longest = length[sides[poor], end].argmax(axis=1)[:, None]
     chosen = np.zeros(len(edges), bool)
-    chosen[longest] = True
-    points, triangles = split_edges(mesh.points, mesh.triangles, chosen & (count == 2))
-    return JointMesh(points, triangles, mesh.boundary_size)
+    chosen[np.take_along_axis(sides[poor], longest, axis=1)] = True
+    return mesh.split(chosen)

@@ -3,15 +3,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.fem.elements import Elements
 from core.fem.energies import (
+    Fairness,
     FoldoverFree,
+    InverseDirichlet,
     StVenantKirchhoff,
     SymmetricDirichlet,
 )
+from core.fem.newton import energy
 
 DENSITIES = [
     StVenantKirchhoff(1.3, 0.7),
     SymmetricDirichlet(),
+    InverseDirichlet(),
+    Fairness(0.3, 2.0),
     FoldoverFree(0.1),
 ]
 singular = st.tuples(st.floats(0.3, 3), st.floats(0.1, 1)).map(lambda p: (p[0], p[0] * p[1]))
@@ -56,6 +62,8 @@ def test_a_flat_triangle_costs_infinitely_only_under_a_barrier():
     one, flat = np.ones(1), np.zeros(1)
     assert np.isinf(SymmetricDirichlet().value(one, flat))
     assert np.isinf(SymmetricDirichlet().value(one, -one))
+    assert np.isinf(InverseDirichlet().value(one, flat))
+    assert np.isinf(Fairness(0.3, 1.0).value(one, flat))
     assert np.isfinite(StVenantKirchhoff().value(one, flat))
     assert np.isfinite(FoldoverFree(0.1).value(one, -one))
 
@@ -64,3 +72,24 @@ def test_the_papers_material_cannot_tell_a_mirrored_triangle_at_lambda_zero():
     material = StVenantKirchhoff(1.0, 0.0)
     s1, s2 = np.array([1.4]), np.array([0.8])
     assert material.value(s1, s2) == material.value(s1, -s2)
+
+
+def test_distortion_is_the_same_whichever_end_is_taken_for_the_rest_shape():
+    random = np.random.default_rng(3)
+    source, target = (
+        np.array([[0, 0], [1, 0], [0, 1]]) + 0.3 * random.random((3, 2)) for _ in "ab"
+    )
+    triangle = np.array([[0, 1, 2]])
+    here, there = Elements.of(source, triangle), Elements.of(target, triangle)
+    forth = energy(here, SymmetricDirichlet(), target)
+    assert forth > 1.01 * here.areas[0]
+    assert energy(there, InverseDirichlet(), source) == pytest.approx(forth)
+
+
+def test_fairness_costs_nothing_above_the_quality_asked_for_and_grows_below():
+    fairness = Fairness(0.5, 1.0)
+    ratio = np.array([1.0, 3.0, 3.8, 5.0, 9.0])
+    quality = 2 * ratio / (ratio**2 + 1)
+    cost = fairness.value(7 * ratio, np.full(5, 7.0))
+    assert ((cost == 0) == (quality >= 0.5)).all()
+    assert (np.diff(cost[quality < 0.5]) > 0).all()

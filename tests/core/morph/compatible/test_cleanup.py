@@ -32,10 +32,8 @@ def outlines(name: str) -> tuple[list[Array], list[Array]]:
 
 
 def cleaned(source: list[Array], target: list[Array]) -> tuple[Mesh, Array]:
-    return improve(
-        *coarsen(*compatible_mesh(source, target)),
-        AREA,
-    )
+    mesh, image = compatible_mesh(source, target)
+    return improve(coarsen(JointMesh.of(mesh, image)), AREA).apart(mesh.rings)
 
 
 def joint(name: str) -> JointMesh:
@@ -104,17 +102,16 @@ def test_the_typical_triangle_of_the_clean_mesh_is_better_than_that_of_the_overl
 
 
 def test_coarsening_keeps_the_fit_and_leaves_few_inner_vertices() -> None:
-    source, target = outlines("spiral and comb")
-    mesh, image = compatible_mesh(source, target)
-    coarse, coarse_image = coarsen(mesh, image)
-    check_fits(coarse, coarse_image, source, target)
-    b = len(source[0])
-    assert len(coarse.points) - b < 0.5 * (len(mesh.points) - b)
+    before = joint("spiral and comb")
+    after = coarsen(before)
+    check_joint(after, "spiral and comb")
+    b = before.boundary_size
+    assert len(after.points) - b < 0.5 * (len(before.points) - b)
 
 
 def test_a_smaller_area_gives_more_triangles() -> None:
-    mesh, image = compatible_mesh([disc(60)], [np.roll(disc(60), 20, axis=0)])
-    counts = [len(improve(mesh, image, area)[0].triangles) for area in (1 / 50, 1 / 200, 1 / 800)]
+    mesh = JointMesh.of(*compatible_mesh([disc(60)], [np.roll(disc(60), 20, axis=0)]))
+    counts = [len(improve(mesh, area).triangles) for area in (1 / 50, 1 / 200, 1 / 800)]
     assert all(few < many for few, many in pairwise(counts))
 
 
@@ -129,11 +126,11 @@ def test_the_clean_up_can_be_cancelled() -> None:
     def cancel(stage: str) -> None:
         raise Cancelled
 
-    mesh, image = compatible_mesh([disc(9)], [disc(9)])
+    mesh = JointMesh.of(*compatible_mesh([disc(9)], [disc(9)]))
     with pytest.raises(Cancelled):
-        coarsen(mesh, image, cancel)
+        coarsen(mesh, cancel)
     with pytest.raises(Cancelled):
-        improve(mesh, image, AREA, watch=cancel)
+        improve(mesh, AREA, cancel)
 
 
 @pytest.mark.parametrize("name", PAIRS)

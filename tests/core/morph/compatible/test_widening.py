@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely import LinearRing
 
 from core.errors import Cancelled
-from core.geometry.triangulation import Mesh, triangulate
+from core.geometry.triangulation import triangulate
 from core.morph.compatible.joint import JointMesh
 from core.morph.compatible.nudging import nudge
 from core.morph.compatible.overlay import compatible_mesh
 from core.morph.compatible.widening import FAIR, widen
 from core.morph.quality import smallest_angle
 from tests.core.morph.compatible.test_overlay import PAIRS, check_fits
-from tests.core.morph.polygons import disc
+from tests.core.morph.polygons import at_unit_area, disc
 
 SQUEEZE = np.diag([2.5, 0.4])
 
@@ -31,9 +33,21 @@ def overlaid(name: str) -> JointMesh:
 
 
 def check_joint(mesh: JointMesh, name: str) -> None:
-    source, target = PAIRS[name]
-    ring = np.arange(mesh.boundary_size)
-    check_fits(Mesh(mesh.end(0), mesh.triangles, (ring,)), mesh.end(1), [source], [target])
+    """Check the fit. On the border, vertices may have been added: they must lie on it."""
+    drawn = PAIRS[name]
+    b = len(drawn[0])
+    cut, _ = mesh.apart((np.arange(b),))
+    [ring] = cut.rings
+    assert ring[ring < b].tolist() == list(range(b))
+    inner = np.arange(len(ring), len(mesh.points))
+    order = np.concatenate([ring, inner])
+    points, triangles = mesh.points[order], np.argsort(order)[mesh.triangles]
+    around = JointMesh(points, triangles, len(ring))
+    ends = [around.end(end)[: len(ring)] for end in (0, 1)]
+    for end, polygon in zip(ends, drawn, strict=True):
+        assert np.array_equal(end[ring < b], polygon)
+        assert shapely.distance(LinearRing(polygon), shapely.points(end)).max() < 1e-14
+    check_fits(*around.apart((np.arange(len(ring)),)), [ends[0]], [ends[1]])
 
 
 def test_a_squeezed_mesh_gets_fair_triangles_at_both_ends() -> None:
@@ -57,6 +71,16 @@ def test_widening_keeps_the_fit_and_never_lowers_the_worst_triangle(name: str) -
     after = widen(before)
     check_joint(after, name)
     assert after.worse.min() >= before.worse.min()
+
+
+def test_the_long_side_of_a_lopsided_corner_is_split_on_the_border() -> None:
+    """No inner vertex helps there: the corner's only triangle has two sides on the border."""
+    lopsided = np.array([[0, 0], [4, -0.2], [4, 3], [1, 3], [1, 0.3]])
+    mesh = triangulate([at_unit_area(lopsided)], 1 / 50)
+    before = JointMesh.of(mesh, mesh.points)
+    after = widen(before)
+    assert before.worse.min() < FAIR <= after.worse.min()
+    assert after.boundary_size > before.boundary_size
 
 
 def test_widening_can_be_cancelled() -> None:

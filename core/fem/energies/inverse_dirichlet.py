@@ -1,0 +1,38 @@
+"""Distortion of a map as a function of its source, when it is the source that moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.fem.energies.density import Derivatives
+from core.model.outline import Array
+
+
+@dataclass(frozen=True)
+class InverseDirichlet:
+    """ψ = J (‖F‖² + ‖F⁻¹‖²) / 4: symmetric Dirichlet per area of the other end.
+
+    With F = ∂X/∂x over the target's triangles Σ A ψ is Σ A ψ of ``SymmetricDirichlet`` over the
+    source's, but for rounding: J is how much a triangle of the target grows, and the rest is the
+    same for F and F⁻¹.
+    """
+
+    barrier: bool = True
+
+    def value(self, s1: Array, s2: Array) -> Array:
+        """Return ψ (m,); infinite where J ≤ 0."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            psi = (s1**3 * s2 + s1 * s2**3 + s2 / s1 + s1 / s2) / 4
+        return np.where(s2 > 0, psi, np.inf)
+
+    def derivatives(self, s1: Array, s2: Array) -> Derivatives:
+        """Return the derivatives of ψ."""
+        return Derivatives(
+            d1=(3 * s1**2 * s2 + s2**3 - s2 / s1**2 + 1 / s2) / 4,
+            d2=(3 * s2**2 * s1 + s1**3 - s1 / s2**2 + 1 / s1) / 4,
+            d11=(3 * s1 * s2 + s2 / s1**3) / 2,
+            d12=(3 * s1**2 + 3 * s2**2 - s1**-2.0 - s2**-2.0) / 4,
+            d22=(3 * s1 * s2 + s1 / s2**3) / 2,
+        )
