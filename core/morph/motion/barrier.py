@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol, cast
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from core.geometry.rotation import Complex
@@ -18,7 +19,7 @@ HALVINGS = 30
 MAX_STEPS = 60
 REGULARISATION = 1e-10
 """Added to a Hessian's diagonal where it is not definite, relative to its largest entry."""
-CONVERGED = 1e-12
+CONVERGED = 1e-10
 """Newton decrement below which one more step settles positions, at unit area."""
 
 
@@ -62,7 +63,8 @@ def settle(fitted: Complex, stiffness: Array, kinds: Sequence[Gaps], start: Comp
     The barrier b is felt below a gap of 1 and infinite at 0 (Li et al. 2020, "Incremental potential
     contact"). A step is Newton's where the energy is convex, Gauss and Newton's where it is not.
     """
-    pull = cast(Array, 2 * np.kron(stiffness, np.eye(2)))
+    pull = np.zeros((2 * len(fitted), 2 * len(fitted)))
+    pull[::2, ::2] = pull[1::2, 1::2] = 2 * stiffness
 
     def energy(z: Complex) -> float:
         off = z - fitted
@@ -71,10 +73,11 @@ def settle(fitted: Complex, stiffness: Array, kinds: Sequence[Gaps], start: Comp
 
     z, value = start, energy(start)
     for _ in range(MAX_STEPS):
-        gradient, hessian, convex = pull @ (z - fitted).view(float), pull.copy(), pull.copy()
-        for kind in kinds:
-            _add(kind, z, gradient, hessian, convex)
-        direction = -_solve(hessian, convex, gradient)
+        terms = [_terms(kind, z) for kind in kinds]
+        gradient = pull @ (z - fitted).view(float)
+        for term in terms:
+            np.add.at(gradient, term.unknowns.ravel(), term.slopes.ravel())
+        direction = -_solve(pull, terms, gradient)
         step, slope = direction.view(complex), float(gradient @ direction)
         length = min([1.0, *(kind.free_way(z, step) for kind in kinds)])
         if -slope < CONVERGED:
@@ -96,30 +99,56 @@ def barrier(u: Array) -> Array:
     return np.where(u > 0, -((inside - 1) ** 2) * np.log(inside), np.inf)
 
 
-def _add(kind: Gaps, z: Complex, gradient: Array, hessian: Array, convex: Array) -> None:
-    """Add gradient and Hessian of Σ w b(u), and the Hessian's part that is never negative."""
+@dataclass(frozen=True, eq=False)
+class _Terms:
+    """Derivatives of Σ w b(u) by the unknowns (c, 6) that each gap depends on."""
+
+    unknowns: Indices
+    slopes: Array
+    """(c, 6)"""
+    squares: Array
+    """(c, 6, 6) part of the Hessian that has the sign of w."""
+    bends: Array
+    """(c, 6, 6) the other part."""
+    added: NDArray[np.bool_]
+    """(c,) whether w > 0."""
+
+    def add_to(self, matrix: Array, *, convex: bool) -> None:
+        """Add the Hessian to a matrix, or its part that is never negative."""
+        blocks = self.squares[self.added] if convex else self.squares + self.bends
+        unknowns = self.unknowns[self.added] if convex else self.unknowns
+        places = unknowns[:, :, None] * len(matrix) + unknowns[:, None]
+        np.add.at(matrix.reshape(-1), places.ravel(), blocks.ravel())
+
+
+def _terms(kind: Gaps, z: Complex) -> _Terms:
     felt = np.flatnonzero(kind(z) < 1)
-    if not len(felt):
-        return
-    at, weights, size = kind.derivatives(z, felt), kind.weights[felt], len(gradient)
+    at, weights = kind.derivatives(z, felt), kind.weights[felt]
     u, log = at.gaps, np.log(at.gaps)
     slope = -weights * (2 * (u - 1) * log + (u - 1) ** 2 / u)
     bend = -weights * (2 * log + 4 * (u - 1) / u - (u - 1) ** 2 / u**2)
-    unknown = (2 * kind.corners[felt][:, :, None] + [0, 1]).reshape(-1, 6)
-    place = (unknown[:, :, None] * size + unknown[:, None]).ravel()
-    squares = bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None]
-    gradient += np.bincount(unknown.ravel(), (slope[:, None] * at.slopes).ravel(), size)
-    for matrix, blocks in (
-        (hessian, squares + slope[:, None, None] * at.bends),
-        (convex, np.maximum(np.sign(weights), 0)[:, None, None] * squares),
-    ):
-        matrix += np.bincount(place, blocks.ravel(), size * size).reshape(size, size)
+    unknowns = 2 * kind.corners[felt][:, :, None] + np.arange(2)
+    return _Terms(
+        unknowns.reshape(-1, 6),
+        slope[:, None] * at.slopes,
+        bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None],
+        slope[:, None, None] * at.bends,
+        weights > 0,
+    )
 
 
-def _solve(hessian: Array, convex: Array, gradient: Array) -> Array:
+def _solve(pull: Array, terms: Sequence[_Terms], gradient: Array) -> Array:
     try:
-        factor = cho_factor(hessian, check_finite=False)
+        factor = _factor(pull, terms, convex=False)
     except LinAlgError:
-        convex[np.diag_indices_from(convex)] += REGULARISATION * convex.diagonal().max()
-        factor = cho_factor(convex, check_finite=False)
+        factor = _factor(pull, terms, convex=True)
     return cast(Array, cho_solve(factor, gradient, check_finite=False))
+
+
+def _factor(pull: Array, terms: Sequence[_Terms], *, convex: bool) -> tuple[Array, bool]:
+    matrix = pull.copy()
+    for term in terms:
+        term.add_to(matrix, convex=convex)
+    if convex:
+        matrix[np.diag_indices_from(matrix)] += REGULARISATION * matrix.diagonal().max()
+    return cast(tuple[Array, bool], cho_factor(matrix.T, overwrite_a=True, check_finite=False))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -31,14 +33,14 @@ TINY = 1e-100
 class Contact:
     """Pairs of a boundary vertex and a boundary edge, kept apart.
 
-    A pair's reach is at most half its smaller distance at both ends, so that neither end feels any.
-    A pair's number is the vertex's place on the boundary times the boundary's length, plus the
-    edge's place.
+    A pair's reach is at most half its smallest distance in frames to be left as they are, such as
+    both ends, so that they feel none. A pair's number is the vertex's place on the boundary times
+    the boundary's length, plus the edge's place.
     """
 
     def __init__(self, rings: Sequence[Indices], rest: Complex, target: Complex) -> None:
         """Prepare for rings of vertex indices and positions (n,) at both ends."""
-        self._ends = rest, target
+        self._left: tuple[Complex, ...] = rest, target
         self._rings = sorted(rings, key=lambda ring: -np.ptp(rest[ring].real))  # exterior first
         self._starts = np.concatenate(self._rings)
         sizes = [len(ring) for ring in self._rings]
@@ -46,6 +48,12 @@ class Contact:
         self._next = np.concatenate([np.roll(place, -1) for place in places])
         self._stops = self._starts[self._next]
         self._weights = STIFFNESS / 2 * (self._sharpness(rest) + self._sharpness(target))
+
+    def leaving(self, *frames: Complex) -> Self:
+        """Return the contact that is not felt in some frames (n,) either."""
+        other = copy(self)
+        other._left = *self._left, *frames
+        return other
 
     def crosses(self, z: Complex) -> bool:
         """Whether the boundary crosses itself at positions z (n,)."""
@@ -70,7 +78,7 @@ class Contact:
 
         Seen from its edge, a vertex is taken to move about straight.
         """
-        way = _aligned(there, here) - here
+        way = aligned(there, here) - here
         radius = REACH + BOWED * np.abs(way[self._starts]).max()
         pairs = self._neighbours(here + way / 2, radius)
         corners = self.corners(pairs)
@@ -118,8 +126,8 @@ class Contact:
         return np.sort(vertex[apart] * len(points) + edge[apart])
 
     def _reach(self, corners: Indices) -> Array:
-        ends = [_distances(end[corners.T]) for end in self._ends]
-        return np.minimum(REACH, np.minimum(*ends) / 2)
+        least = np.min([_distances(frame[corners.T]) for frame in self._left], axis=0)
+        return np.minimum(REACH, least / 2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,12 +205,7 @@ def _tree(z: Complex) -> cKDTree:
     return cKDTree(z.view(float).reshape(-1, 2))
 
 
-def _aligned(z: Complex, model: Complex) -> Complex:
+def aligned(z: Complex, model: Complex) -> Complex:
     """Return positions (n,) turned and moved closest to a model."""
-    return model.mean() + rotation_between(z, model) * (z - z.mean())
-
-
-def rotation_between(z: Complex, model: Complex) -> complex:
-    """Return the rotation that brings positions (n,) closest to a model, as a complex number."""
     product = np.vdot(z - z.mean(), model - model.mean())
-    return complex(product / abs(product))
+    return model.mean() + product / abs(product) * (z - z.mean())

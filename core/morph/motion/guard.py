@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -23,15 +25,27 @@ AREA_BEND = np.kron([[0, 1, -1], [-1, 0, 1], [1, -1, 0]], [[0, 1], [-1, 0]]) / 2
 
 
 class FoldGuard:
-    """Weighs folds against the fit: Σ w det B b(det F / (REACH · det B)), the ideal being B.
+    """Weighs folds against the fit: Σ w det B b(det F / (reach · det B)), the ideal being B.
 
-    It is felt only close to a fold: elsewhere frames are the plain fit's.
+    It is felt only close to a fold: elsewhere frames are the plain fit's. A triangle's reach is at
+    most half its smallest margin in frames to be left as they are.
     """
 
     def __init__(self, before: Elements, after: Elements) -> None:
         """Prepare for rest and target elements."""
         self.triangles, self._areas = before.triangles, before.areas
         self._weights = STIFFNESS * (before.areas + after.areas) / 2
+        self._reach = np.full(len(self._areas), REACH)
+
+    def leaving(self, *margins: Array) -> Self:
+        """Return the guard that is not felt in frames with some margins (m,) either."""
+        other = copy(self)
+        other._reach = np.min([self._reach, *(margin / 2 for margin in margins)], axis=0)
+        return other
+
+    def near(self, z: Complex, ideal: Array, within: float) -> Indices:
+        """Return the triangles with a gap below ``within``, in order."""
+        return np.flatnonzero(self.margins(z, ideal) < within * self._reach)
 
     def margins(self, z: Complex, ideal: Array) -> Array:
         """Return det F / det B (m,) at positions z (n,), for ideal determinants (m,)."""
@@ -40,7 +54,7 @@ class FoldGuard:
     def gaps(self, which: Indices, vertices: Indices, ideal: Array) -> TriangleGaps:
         """Return some triangles as gaps between the vertices held, which come in order."""
         corners = np.searchsorted(vertices, self.triangles[which])
-        weights, felt = self._weights * ideal, REACH * self._areas * ideal
+        weights, felt = self._weights * ideal, self._reach * self._areas * ideal
         return TriangleGaps(corners, weights[which], felt[which])
 
 

@@ -6,7 +6,9 @@ system has it, so that a frame settles in a system of the few (static condensati
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -16,10 +18,9 @@ from core.model.outline import Array
 from core.morph.motion.barrier import Gaps, settle
 from core.morph.motion.contact import Contact
 from core.morph.motion.fit import GradientFit
-from core.morph.motion.gradients import determinant
-from core.morph.motion.guard import REACH, FoldGuard
+from core.morph.motion.guard import FoldGuard
 
-WARY = 1.5
+WARY = 1.2
 """How many times further than they are felt folds and contacts are watched while settling."""
 ROUNDS = 8
 """How often more is held, where a settled frame folds or crosses elsewhere."""
@@ -30,7 +31,7 @@ class Wanted:
     """What a frame is to be close to."""
 
     fitted: Complex
-    """(n,) the plain fit."""
+    """(n,) the positions it would have if nothing were near."""
     determinants: Array
     """(m,) of the ideal gradients."""
 
@@ -71,9 +72,11 @@ class Hold:
     def __init__(self, fit: GradientFit, guard: FoldGuard, contact: Contact) -> None:
         self._fit, self._guard, self._contact = fit, guard, contact
 
-    def wanted(self, ideal: Complex, fitted: Array) -> Wanted:
-        """Return what a frame is to be, for ideal gradients (2, m) and their fit (n, 2)."""
-        return Wanted(_complex(fitted), determinant(ideal))
+    def leaving(self, frames: Sequence[tuple[Complex, Wanted]]) -> Self:
+        """Return the hold that does not touch some frames (n,) that were settled."""
+        margins = (self._guard.margins(z, wanted.determinants) for z, wanted in frames)
+        contact = self._contact.leaving(*(z for z, _ in frames))
+        return type(self)(self._fit, self._guard.leaving(*margins), contact)
 
     def margin(self, z: Complex, wanted: Wanted) -> float:
         """Return the smallest ratio of a triangle's area to the ideal one: a fold is 0 or less."""
@@ -86,26 +89,37 @@ class Hold:
 
         ``among`` are the pairs that may, if that is known.
         """
-        margins = self._guard.margins(z, wanted.determinants)
-        return Tight(np.flatnonzero(margins < within * REACH), self._contact.near(z, within, among))
+        triangles = self._guard.near(z, wanted.determinants, within)
+        return Tight(triangles, self._contact.near(z, within, among))
 
     def sound(self, z: Complex, wanted: Wanted) -> bool:
         """Whether positions z (n,) neither fold nor cross."""
         return self.margin(z, wanted) > 0 and not self._contact.crosses(z)
 
-    def grip(self, tight: Tight) -> Grip:
-        """Return all that is needed to hold some triangles and pairs."""
+    def free(self, wanted: Wanted, among: Indices | None = None) -> bool:
+        """Whether what is wanted is sound, and nothing of what holds frames is felt.
+
+        Where no pair may come near there is no crossing either.
+        """
+        if self.tight(wanted.fitted, wanted, among=among):
+            return False
+        return (among is not None and not len(among)) or not self._contact.crosses(wanted.fitted)
+
+    def meeting(self, here: Complex, there: Complex) -> Indices:
+        """Return the pairs of the boundary that may be felt on the way between frames (n,)."""
+        return self._contact.meeting(here, there)
+
+    def _grip(self, tight: Tight) -> Grip:
         corners = self._guard.triangles[tight.triangles], self._contact.corners(tight.pairs)
         vertices = np.unique(np.concatenate(corners))
         return Grip(tight, vertices, self._fit.stiffness(vertices))
 
-    def __call__(
-        self, wanted: Wanted, start: Complex, grip: Grip, among: Indices | None = None
-    ) -> tuple[Complex, Grip]:
-        """Return the settled frame (n,) from a sound start (n,), and what it took to hold.
+    def __call__(self, wanted: Wanted, start: Complex, among: Indices | None = None) -> Complex:
+        """Return the settled frame (n,) from a sound start (n,).
 
         Where it folds or crosses although all that is held is open, it is settled anew with more.
         """
+        grip = self._grip(self.tight(start, wanted, WARY, among))
         for _ in range(ROUNDS):
             z = self._settled(wanted, start, grip)
             missing = self.tight(z, wanted, among=among) - grip.tight
@@ -116,8 +130,8 @@ class Hold:
                 missing |= Tight(missing.triangles, self._contact.meeting(start, z))
             elif self.margin(z, wanted) > 0:
                 start = z
-            grip = self.grip(grip.tight | missing)
-        return z, grip
+            grip = self._grip(grip.tight | missing)
+        return z
 
     def _settled(self, wanted: Wanted, start: Complex, grip: Grip) -> Complex:
         held, tight = grip.vertices, grip.tight
@@ -130,7 +144,7 @@ class Hold:
         offset = settle(fitted, grip.stiffness, felt, start[held]) - fitted
         force = np.zeros(len(start), dtype=complex)
         force[held] = grip.stiffness @ offset
-        return wanted.fitted + _complex(self._fit.solve(np.array([force.real, force.imag]).T))
+        return wanted.fitted + to_complex(self._fit.solve(np.array([force.real, force.imag]).T))
 
 
 def _without(some: Indices, others: Indices) -> Indices:
@@ -141,5 +155,6 @@ def _without(some: Indices, others: Indices) -> Indices:
     return some[others[np.minimum(place, len(others) - 1)] != some]
 
 
-def _complex(points: Array) -> Complex:
+def to_complex(points: Array) -> Complex:
+    """Return points (n, 2) as complex numbers."""
     return points[:, 0] + 1j * points[:, 1]

@@ -64,7 +64,8 @@ class Rigid:
         ends = (end[:, 0] + 1j * end[:, 1] for end in (rest, target))
         contact = Contact(boundary_rings(triangles), *ends)
         guard = FoldGuard(before, after)
-        self._frames = SoundFrames(self.ideal, self.fit, guard, contact, watch)
+        turning = _around_vertices(even.theta, before)
+        self._frames = SoundFrames(self.ideal, turning, self.fit, guard, contact, watch)
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t, wherever they lie."""
@@ -73,6 +74,13 @@ class Rigid:
     def plain(self, t: float) -> Array | None:
         """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
         return self._frames.plain(t)
+
+
+def _around_vertices(values: Array, elements: Elements) -> Array:
+    """Return the mean (n,) of triangles' values (m,) around each vertex, by area."""
+    corners, areas = elements.triangles.ravel(), np.repeat(elements.areas, 3)
+    total = np.bincount(corners, areas * np.repeat(values, 3), elements.vertices)
+    return total / np.bincount(corners, areas, elements.vertices)
 
 
 def _symmetric_weights(before: Elements, after: Elements, F: Array) -> Array:

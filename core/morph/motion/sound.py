@@ -1,33 +1,38 @@
 """Fitted frames, held where a triangle nears a fold or the boundary nears itself.
 
-A motion is surveyed beforehand: held frames at some moments, its anchors, are what others start
-from. So a frame depends on the motion and the moment alone, whatever was asked for before.
+A motion is surveyed beforehand: frames at some moments, its anchors, are settled, and what they
+depart from their fits is carried smoothly from one to the next. So a frame depends on the motion
+and the moment alone, whatever was asked for before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from operator import attrgetter
 
 import numpy as np
 
-from core.geometry.rotation import Complex
+from core.geometry.rotation import Complex, phasor
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.contact import Contact, rotation_between
+from core.morph.motion.contact import Contact, aligned
+from core.morph.motion.departures import Departures
 from core.morph.motion.fit import GradientFit
+from core.morph.motion.gradients import determinant
 from core.morph.motion.guard import FoldGuard
-from core.morph.motion.hold import WARY, Grip, Hold, Wanted
+from core.morph.motion.hold import Hold, Wanted, to_complex
 from core.progress import Watch
 
 SURVEY = 16
 """Stretches of time between the moments at which a motion is surveyed."""
-FINEST = 1 / 64
-"""Shortest stretch, where frames depart so far from the fit that anchors must lie closer."""
+SHORTEST_STEP = 1 / 32
+"""Of the walk from one moment to the next, which is made in parts where the way is far."""
+LEVELS = 2
+"""How often a stretch is halved where what is carried between its anchors does not do."""
 WATCHED = 0.6
 """Between moments with a margin above this, frames are not checked for folds."""
-
 
 Ideal = Callable[[float], Complex]
 """Ideal gradients at t, as turns and mirrors (2, m)."""
@@ -39,24 +44,21 @@ class Anchor:
 
     t: float
     wanted: Wanted
+    """The plain fit."""
+    turned: Complex
+    """(n,) how far the shape has turned around each vertex."""
     frame: Complex
     """(n,)"""
-    grip: Grip | None
-    """None where the plain fit is sound."""
-    margin: float
-    """The plain fit's."""
+    held: bool = False
+    """Whether the frame is not the plain fit."""
 
-    def carried(self, fitted: Complex) -> Complex:
-        """Return what the frame departs from its fit, turned as another fit (n,) has turned."""
-        if self.grip is None:
-            return np.zeros_like(fitted)
-        turn = rotation_between(self.wanted.fitted, fitted)
-        return turn * (self.frame - self.wanted.fitted)
+    @property
+    def departure(self) -> Complex:
+        """(n,) what the frame departs from its fit, seen from the turning shape."""
+        return np.conj(self.turned) * (self.frame - self.wanted.fitted)
 
-    def moved(self, fitted: Complex) -> Complex:
-        """Return the frame, moved rigidly as close as it can be to another fit (n,)."""
-        turn = rotation_between(self.wanted.fitted, fitted)
-        return fitted.mean() + turn * (self.frame - self.wanted.fitted.mean())
+
+Ends = tuple[Anchor, Anchor]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,10 +67,10 @@ class Stretch:
 
     anchors: tuple[Anchor, ...]
     """At its ends; one alone for all time beyond it."""
+    hold: Hold
+    """It leaves the anchors as they are."""
     pairs: Indices | None
     """Those that may come near each other, if that is known."""
-    grip: Grip | None
-    """What is likely to be held."""
 
 
 class SoundFrames:
@@ -77,101 +79,133 @@ class SoundFrames:
     def __init__(
         self,
         ideal: Ideal,
+        turning: Array,
         fit: GradientFit,
         guard: FoldGuard,
         contact: Contact,
         watch: Watch,
     ) -> None:
-        """Walk through the motion once. Both its ends must be sound."""
-        self._ideal, self._fit = ideal, fit
-        self._contact, self._hold = contact, Hold(fit, guard, contact)
-        wanted = self._wanted(0.0)
-        anchors = [Anchor(0.0, wanted, wanted.fitted, None, 1.0)]
-        for t in np.linspace(0, 1, SURVEY + 1)[1:]:
-            watch("in-between")
-            self._walk(float(t), anchors)
-        self._times = np.array([anchor.t for anchor in anchors])
-        self._stretches = [
-            Stretch((anchors[0],), None, None),
-            *(self._stretch(*ends) for ends in pairwise(anchors)),
-            Stretch((anchors[-1],), None, None),
-        ]
+        """Walk through the motion once. Both its ends must be sound.
+
+        ``turning`` (n,) is how far the shape turns around each vertex.
+        """
+        self._ideal, self._turning, self._fit = ideal, turning, fit
+        self._hold, self._watch = Hold(fit, guard, contact), watch
+        self._between: dict[Ends, Stretch | None] = {}
+        anchors = self._walk()
+        self._lay(anchors)
+        for _ in range(LEVELS):
+            if not (more := self._missing(anchors)):
+                break
+            anchors = sorted([*anchors, *more], key=attrgetter("t"))
+            self._lay(anchors)
+        self._between.clear()
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t."""
-        x, trouble = self._fitted(t)
+        x, trouble = self._carried(t)
         if trouble is None:
             return x
-        z = self._held(t, *trouble)
+        z = self._settled(t, *trouble)
         return np.column_stack([z.real, z.imag])
 
     def plain(self, t: float) -> Array | None:
-        """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
-        x, trouble = self._fitted(t)
+        """Return positions (n, 2) at t if they need not be settled, which costs little."""
+        x, trouble = self._carried(t)
         return x if trouble is None else None
 
-    def _fitted(self, t: float) -> tuple[Array, tuple[Wanted, Stretch] | None]:
-        """Return the plain fit (n, 2) at t, and what it takes to hold it, if it must be held."""
+    def _carried(self, t: float) -> tuple[Array, tuple[Wanted, Stretch] | None]:
+        """Return the fit (n, 2) at t, departed from as at the anchors nearby.
+
+        With it comes what it takes to settle it, if it must be settled.
+        """
         ideal = self._ideal(t)
         x = self._fit(ideal)
+        if self._departures is not None and 0 < t < 1:
+            departure = self._departures(t)
+            x[:, 0] += departure.real
+            x[:, 1] += departure.imag
         stretch = self._stretches[np.searchsorted(self._times, t)]
         if stretch is None:
             return x, None
-        wanted = self._hold.wanted(ideal, x)
-        return x, None if self._free(wanted, stretch.pairs) else (wanted, stretch)
+        wanted = Wanted(to_complex(x), determinant(ideal))
+        return x, None if stretch.hold.free(wanted, stretch.pairs) else (wanted, stretch)
 
-    def _held(self, t: float, wanted: Wanted, stretch: Stretch) -> Complex:
-        start = self._start(t, wanted, stretch.anchors)
-        tight = self._hold.tight(start, wanted, WARY, stretch.pairs)
-        grip = stretch.grip
-        if grip is None or tight - grip.tight:
-            grip = self._hold.grip(tight)
-        return self._hold(wanted, start, grip, stretch.pairs)[0]
+    def _settled(self, t: float, wanted: Wanted, stretch: Stretch) -> Complex:
+        start = wanted.fitted
+        if not stretch.hold.sound(start, wanted):
+            nearest = min(stretch.anchors, key=lambda anchor: abs(anchor.t - t))
+            start = aligned(nearest.frame, start)
+        return stretch.hold(wanted, start, stretch.pairs)
 
-    def _start(self, t: float, wanted: Wanted, anchors: tuple[Anchor, ...]) -> Complex:
-        """Return a sound frame: the fit and what nearby frames depart from theirs, if it is one."""
-        start, nearest = wanted.fitted, anchors[0]
-        if len(anchors) == 2:
-            before, after = anchors
-            share = (t - before.t) / (after.t - before.t)
-            nearest = after if share > 0.5 else before
-            start = start + (1 - share) * before.carried(start) + share * after.carried(start)
-        return start if self._hold.sound(start, wanted) else nearest.moved(wanted.fitted)
+    # -- the survey ----------------------------------------------------------------------------
 
-    def _wanted(self, t: float) -> Wanted:
+    def _walk(self) -> list[Anchor]:
+        """Return anchors from end to end, each settled from the one before where it is held."""
+        plain = [self._plain_anchor(float(t)) for t in np.linspace(0, 1, SURVEY + 1)]
+        anchors, clear = plain[:1], True
+        for before, anchor in pairwise(plain[:-1]):
+            self._watch("in-between")
+            stretch = self._stretch((before, anchor))
+            pairs = stretch.pairs if clear and stretch is not None else None
+            clear = (clear and stretch is None) or self._hold.free(anchor.wanted, pairs)
+            anchors.append(anchor if clear else self._walked(anchors[-2:], anchor))
+        return [*anchors, plain[-1]]
+
+    def _plain_anchor(self, t: float) -> Anchor:
         ideal = self._ideal(t)
-        return self._hold.wanted(ideal, self._fit(ideal))
+        wanted = Wanted(to_complex(self._fit(ideal)), determinant(ideal))
+        return Anchor(t, wanted, phasor(t * self._turning), wanted.fitted)
 
-    def _free(self, wanted: Wanted, pairs: Indices | None = None) -> bool:
-        """Whether the plain fit is sound, and nothing of what holds frames is felt."""
-        tight = self._hold.tight(wanted.fitted, wanted, among=pairs)
-        return not tight and not self._contact.crosses(wanted.fitted)
-
-    def _walk(self, t: float, anchors: list[Anchor]) -> None:
-        """Add an anchor at t, and others before it where the way there is far."""
-        wanted, last = self._wanted(t), anchors[-1]
-        margin = self._hold.margin(wanted.fitted, wanted)
-        if self._free(wanted):
-            anchors.append(Anchor(t, wanted, wanted.fitted, None, margin))
-            return
-        start = wanted.fitted + last.carried(wanted.fitted)
+    def _walked(self, last: Sequence[Anchor], plain: Anchor) -> Anchor:
+        """Return an anchor, settled from earlier ones."""
+        wanted, latest = plain.wanted, last[-1]
+        start = wanted.fitted + plain.turned * _carried_on(last, plain.t)
         if not self._hold.sound(start, wanted):
-            if t - last.t > FINEST:
-                self._walk((last.t + t) / 2, anchors)
-                self._walk(t, anchors)
-                return
-            start = last.moved(wanted.fitted)
-        grip = self._hold.grip(self._hold.tight(start, wanted, WARY))
-        anchors.append(Anchor(t, wanted, *self._hold(wanted, start, grip), margin))
+            if plain.t - latest.t > SHORTEST_STEP:
+                halfway = self._plain_anchor((latest.t + plain.t) / 2)
+                return self._walked([latest, self._walked(last, halfway)], plain)
+            start = aligned(latest.frame, wanted.fitted)
+        return replace(plain, frame=self._hold(wanted, start), held=True)
 
-    def _stretch(self, before: Anchor, after: Anchor) -> Stretch | None:
-        """Return the stretch between two anchors, or None where no frame can need to be held."""
-        ends = before, after
-        pairs = self._contact.meeting(before.wanted.fitted, after.wanted.fitted)
-        held = [end.grip.tight for end in ends if end.grip is not None]
-        if not held:
-            quiet = not len(pairs) and min(before.margin, after.margin) > WATCHED
-            return None if quiet else Stretch(ends, pairs, None)
-        pairs = np.union1d(pairs, self._contact.meeting(before.frame, after.frame))
-        tight = [self._hold.tight(end.frame, end.wanted, WARY) for end in ends]
-        return Stretch(ends, pairs, self._hold.grip(tight[0] | tight[1]))
+    def _lay(self, anchors: Sequence[Anchor]) -> None:
+        """Carry departures from anchor to anchor."""
+        self._times = np.array([anchor.t for anchor in anchors])
+        self._departures: Departures | None = None
+        if any(anchor.held for anchor in anchors):
+            self._departures = Departures(
+                self._turning, self._times, np.array([anchor.departure for anchor in anchors])
+            )
+        beyond = (Stretch((end,), self._hold, None) for end in (anchors[0], anchors[-1]))
+        self._stretches = [next(beyond), *map(self._stretch, pairwise(anchors)), next(beyond)]
+
+    def _stretch(self, ends: Ends) -> Stretch | None:
+        """Return the stretch between two anchors, or None where no frame can need to be settled."""
+        if ends not in self._between:
+            frames = [(end.frame, end.wanted) for end in ends]
+            pairs = self._hold.meeting(*(frame for frame, _ in frames))
+            quiet = not len(pairs) and min(self._hold.margin(*each) for each in frames) > WATCHED
+            self._between[ends] = (
+                None if quiet else Stretch(ends, self._hold.leaving(frames), pairs)
+            )
+        return self._between[ends]
+
+    def _missing(self, anchors: Sequence[Anchor]) -> list[Anchor]:
+        """Return anchors in the middle of stretches where what is carried must be settled."""
+        found = []
+        for before, after in pairwise(anchors):
+            t = (before.t + after.t) / 2
+            _, trouble = self._carried(t)
+            if trouble is not None:
+                self._watch("in-between")
+                found.append(
+                    replace(self._plain_anchor(t), frame=self._settled(t, *trouble), held=True)
+                )
+        return found
+
+
+def _carried_on(last: Sequence[Anchor], t: float) -> Complex:
+    """Return what departures lead to at t if they go on as they did."""
+    first, latest = last[0], last[-1]
+    rate = (latest.departure - first.departure) / max(latest.t - first.t, 1e-9)
+    return latest.departure + (t - latest.t) * rate

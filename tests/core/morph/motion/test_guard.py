@@ -13,7 +13,7 @@ from core.morph.motion.contact import Contact
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import determinant
 from core.morph.motion.guard import REACH, FoldGuard
-from core.morph.motion.hold import Hold
+from core.morph.motion.hold import Hold, Wanted, to_complex
 from core.morph.motion.motion import Motion
 from core.morph.placement import place
 from core.morph.quality import folds
@@ -81,10 +81,12 @@ class Bar:
 
     def held(self, angle: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Return the frame for triangles turned by angles."""
+        return self.hold(self.wanted(angle), start)
+
+    def wanted(self, angle: np.ndarray) -> Wanted:
+        """Return the plain fit for triangles turned by angles."""
         ideal = turned_by(angle)
-        wanted = self.hold.wanted(ideal, self.fit(ideal))
-        grip = self.hold.grip(self.hold.tight(wanted.fitted, wanted))
-        return self.hold(wanted, start, grip)[0]
+        return Wanted(to_complex(self.fit(ideal)), determinant(ideal))
 
     def margin(self, z: np.ndarray) -> float:
         """Return the smallest area, relative to rest."""
@@ -118,9 +120,8 @@ def test_what_is_held_has_no_fold_even_where_the_ideal_twists(bar, twist):
 
 
 def test_where_nothing_nears_a_fold_nothing_is_held(bar):
-    ideal = turned_by(np.full(len(bar.elements.areas), 0.7))
-    wanted = bar.hold.wanted(ideal, bar.fit(ideal))
-    assert not bar.hold.tight(wanted.fitted, wanted)
+    wanted = bar.wanted(np.full(len(bar.elements.areas), 0.7))
+    assert bar.hold.free(wanted)
     turned = bar.rest * np.exp(0.7j)
     assert np.allclose(wanted.fitted - wanted.fitted[0], turned - turned[0], atol=1e-9)
 
@@ -131,6 +132,12 @@ def test_a_held_frame_does_not_depend_on_where_it_settles_from(bar, twist):
     assert bar.margin(other) > 0
     one, two = (bar.held(twist, start) for start in (bar.rest, other))
     assert np.abs(one - two).max() < 1e-6
+
+
+def test_a_hold_that_leaves_a_frame_as_it_is_does_not_touch_it(bar, twist):
+    wanted, frame = bar.wanted(twist), bar.held(twist, bar.rest)
+    assert not bar.hold.free(Wanted(frame, wanted.determinants))
+    assert bar.hold.leaving([(frame, wanted)]).free(Wanted(frame, wanted.determinants))
 
 
 def test_guarded_motion_is_smooth_and_exact_at_both_ends():
