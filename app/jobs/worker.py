@@ -19,7 +19,7 @@ Work = Callable[[Progress], Any]
 
 REPORT_EVERY = 0.03
 """Seconds between two progress reports of the same stage."""
-SHARE_EVERY, SHARE = 12, 0.004
+SHARE_EVERY, SHARE = 12, 0.001
 """Milliseconds between the turns that the UI thread gives to the work, and seconds of each."""
 SWITCH_SECONDS = 0.0005
 """How often the interpreter lock changes hands meanwhile; the default makes frames stutter."""
