@@ -94,7 +94,7 @@ class Commands(QObject):
     def insert_keyframe(self) -> None:
         """Make the in-between at the playhead a keyframe; EditError while it is not solved."""
         layer, frame = self._unlocked(), round(self._playhead.frame)
-        key, turning = keyframe_at(layer, frame, self._solution)
+        key, turning = keyframe_at(self._session.document, layer, frame, self._solution)
         text = self.tr("Insert keyframe")
         if self._session.apply(text, insert_keyframe, layer.id, key, turning):
             self._select_key_at(layer.id, frame)

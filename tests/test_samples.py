@@ -109,7 +109,7 @@ def test_a_sample_saved_again_is_the_same_document(name, tmp_path: Path):
 def test_the_first_sample_never_stands_still():
     document = document_of(EVERY[0])
     fox = max(document.layers, key=lambda layer: len(layer.keyframes[0].outline.rings[0]))
-    poses = [layer_rings(fox, frame, solved)[0] for frame in frames(document)]
+    poses = [layer_rings(document, fox, frame, solved)[0] for frame in frames(document)]
     for here, there in pairwise(poses):
         gap = np.abs(here[:, None] - there[None, :]).sum(axis=2).min(axis=1)
         assert gap.max() > 5

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
@@ -12,7 +13,7 @@ from app.workspace import Workspace
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.model.picture import Picture
-from core.morph.scene import Span, picture_at, span_of
+from core.morph.scene import Span, carried, picture_at, span_of
 
 if TYPE_CHECKING:
     from core.morph.morph import Morph
@@ -74,7 +75,8 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     span, t = layer.span_at(frame)
     s = layer.progress_at(frame)[1]
     morph = workspace.solver.morph_of(span_of(layer, span))
-    positions = None if morph is None else workspace.frames.at(morph, s)
+    moved = carried(document, layer, frame, shown_by(workspace))
+    positions = None if morph is None else moved(workspace.frames.at(morph, s))
     known = frame.is_integer() and layer.id not in late
     check = workspace.inspector.frame_check(layer.id, frame) if known else None
     return Moment(
@@ -89,7 +91,7 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
         state_of(layer),
         layer.id in late,
         stale,
-        None if check is None else check.places,
+        None if check is None else moved(check.places),
     )
 
 
@@ -104,12 +106,17 @@ def _late(workspace: Workspace, layer: Layer, frame: float) -> bool:
 
 def picture_on_screen(workspace: Workspace, frame: float) -> Picture:
     """Return the visible layers at a frame, as far as they are there."""
+    return picture_at(workspace.session.document, frame, shown_by(workspace))
+
+
+def shown_by(workspace: Workspace) -> Callable[[Span], Shown | None]:
+    """Return what looks up what is there of a span."""
 
     def shown(span: Span) -> Shown | None:
         morph = workspace.solver.morph_of(span)
         return None if morph is None else Shown(morph, workspace.frames)
 
-    return picture_at(workspace.session.document, frame, shown)
+    return shown
 
 
 def edited_key(workspace: Workspace, role: Role) -> int | None:

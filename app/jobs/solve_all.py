@@ -22,14 +22,15 @@ def solve_all(
 ) -> dict[Span, Morph]:
     """Solve the spans of the visible layers that show between two frames, or all of them.
 
+    Of a layer that others hang on, every span may count.
     ``known`` are exact solutions that need no repeating. An error names the layer and the frames.
     """
-    solved = dict(known or {})
+    solved, frames = dict(known or {}), frames or document.frames
+    carriers = {layer.carrier for layer in document.layers}
     needed = {
         span_of(layer, index): (layer, index)
-        for layer in document.layers
-        if layer.visible
-        for index in _spans(layer, frames or document.frames)
+        for layer in document.moving
+        for index in _spans(layer, document.frames if layer.id in carriers else frames)
     }
     missing = {span: place for span, place in needed.items() if span not in solved}
     for done, (span, (layer, index)) in enumerate(missing.items()):

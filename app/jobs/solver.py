@@ -152,8 +152,7 @@ class Solver(QObject):
         before = Counter(layer_id for layer_id, _ in self._spans)
         self._spans = {
             (layer.id, index): span_of(layer, index)
-            for layer in document.layers
-            if layer.visible
+            for layer in document.moving
             for index in range(layer.spans)
         }
         self._keys = {span: key for key, span in self._spans.items()}

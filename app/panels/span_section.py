@@ -20,7 +20,7 @@ from core.model import Document, Easing
 from core.model.easing import PRESETS
 from core.model.edits import move_keyframe, set_easing, set_passing, set_turning
 from core.model.turning import MOST_TURNS, Direction, Path
-from core.morph.scene import span_of
+from core.morph.scene import turn_of
 
 MOST_FRAMES = 1_000_000
 
@@ -153,9 +153,10 @@ class SpanSection(Section):
         if layer is None or not layer.spans:
             return
         index, _ = layer.span_at(self.workspace.playhead.frame)
-        morph = self.workspace.solver.morph_of(span_of(layer, index))
-        solved = self.workspace.solver.state(layer.id, index) is SpanState.SOLVED
-        self.angle.setText(self._turned(morph.angle) if morph and solved else "–")
+        solver, document = self.workspace.solver, self.workspace.session.document
+        solved = solver.state(layer.id, index) is SpanState.SOLVED
+        angle = turn_of(document, layer, index, solver.morph_of) if solved else None
+        self.angle.setText("–" if angle is None else self._turned(angle))
 
     def _turned(self, angle: float) -> str:
         rounded = round(math.degrees(angle))

@@ -13,7 +13,7 @@ from core.io.exporters import Track
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.model.picture import Picture
-from core.morph.scene import MorphOf, layer_rings, picture_at, span_of
+from core.morph.scene import MorphOf, carried, layer_rings, picture_at, span_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,13 +53,18 @@ class DocumentFilm:
             frames = list(progress)
             morph = self.morph_of(span_of(layer, span)) if layer.spans else None
             times = [(frame - 1) / self.document.fps for frame in frames]
-            if morph is None:  # one keyframe: nothing moves, there is no mesh
-                rings = layer_rings(layer, first, self.morph_of)
-                positions = np.tile(np.concatenate(rings), (len(frames), 1, 1))
+            if morph is None:  # one keyframe: there is no mesh
+                shown = [layer_rings(self.document, layer, f, self.morph_of) for f in frames]
+                positions, rings = np.stack([np.concatenate(rings) for rings in shown]), shown[0]
                 triangles = np.empty((0, 3), dtype=int)
                 boundary = _consecutive(rings)
             else:
-                positions = np.stack([morph.at(s) for s in progress.values()])
+                positions = np.stack(
+                    [
+                        carried(self.document, layer, frame, self.morph_of)(morph.at(s))
+                        for frame, s in progress.items()
+                    ]
+                )
                 triangles, boundary = morph.triangles, morph.rings
             yield Track(layer.name, positions, triangles, boundary, frames, times)
 

@@ -29,6 +29,25 @@ class Document:
                 return layer
         raise KeyError(layer_id)
 
+    def carriers(self, layer: Layer) -> list[Layer]:
+        """Return what a layer hangs on, and what that hangs on, and so forth."""
+        found: list[Layer] = []
+        while layer.carrier is not None:
+            layer = self.layer(layer.carrier)
+            found.append(layer)
+        return found
+
+    @property
+    def moving(self) -> tuple[Layer, ...]:
+        """The layers whose motion is seen: the visible ones, and those that carry them."""
+        seen = {
+            other.id
+            for layer in self.layers
+            if layer.visible
+            for other in (layer, *self.carriers(layer))
+        }
+        return tuple(layer for layer in self.layers if layer.id in seen)
+
     @property
     def frames(self) -> tuple[int, int]:
         """First and last frame that has a key; (1, 1) for an empty document."""

@@ -52,9 +52,11 @@ def duplicate_layer(document: Document, layer_id: int, name: str) -> Document:
 
 
 def remove_layer(document: Document, layer_id: int) -> Document:
-    """Remove a layer."""
-    gone = _layer(document, layer_id)
-    return replace(document, layers=tuple(other for other in document.layers if other is not gone))
+    """Remove a layer; what hung on it hangs on nothing."""
+    _layer(document, layer_id)
+    kept = (layer for layer in document.layers if layer.id != layer_id)
+    free = (replace(layer, carrier=None) if layer.carrier == layer_id else layer for layer in kept)
+    return replace(document, layers=tuple(free))
 
 
 def reorder_layer(document: Document, layer_id: int, index: int) -> Document:
@@ -68,6 +70,18 @@ def reorder_layer(document: Document, layer_id: int, index: int) -> Document:
 def update_layer(document: Document, layer_id: int, **changes: Any) -> Document:
     """Change a layer's name, style, recipe, visible or locked."""
     return _on_layer(document, layer_id, lambda layer: _changed(layer, **changes))
+
+
+def hang_layer(document: Document, layer_id: int, carrier: int | None) -> Document:
+    """Hang a layer on another, which then carries it along; or on nothing."""
+    if carrier is not None:
+        above = _layer(document, carrier)
+        if layer_id in (carrier, *(layer.id for layer in document.carriers(above))):
+            raise EditError(
+                f"Layer “{_layer(document, layer_id).name}” cannot hang on “{above.name}”, "
+                "which is itself or hangs on it."
+            )
+    return _on_layer(document, layer_id, lambda layer: _changed(layer, carrier=carrier))
 
 
 # -- keyframes ---------------------------------------------------------------------------------

@@ -43,6 +43,8 @@ class Layer:
     recipe: Recipe = field(default_factory=Recipe)
     visible: bool = True
     locked: bool = False
+    carrier: int | None = None
+    """The id of the layer that this one hangs on: it carries this one along between keys."""
 
     @property
     def spans(self) -> int:

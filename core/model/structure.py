@@ -33,6 +33,20 @@ def problems(document: Document) -> Iterator[Problem]:
             yield f"{path}.id", f"{layer.id} is the id of another layer too"
         seen.add(layer.id)
         yield from layer_problems(path, layer)
+    yield from carrier_problems(document)
+
+
+def carrier_problems(document: Document) -> Iterator[Problem]:
+    """Yield what is wrong with what layers hang on."""
+    carriers = {layer.id: layer.carrier for layer in document.layers}
+    for i, layer in enumerate(document.layers):
+        above, passed = layer.carrier, {layer.id}
+        while above in carriers and above not in passed:
+            passed.add(above)
+            above = carriers[above]
+        if above is not None:
+            path = f"layers[{i}].carrier"
+            yield path, ("it hangs on itself" if above in passed else f"there is no layer {above}")
 
 
 def setting_problems(document: Document) -> Iterator[Problem]:

@@ -38,6 +38,11 @@ class Morph:
         self.target.setflags(write=False)
 
     @property
+    def morph(self) -> Self:
+        """Itself: what is seen of it is all of it."""
+        return self
+
+    @property
     def angle(self) -> float:
         """How far the shape turns as a whole, in radians; clockwise is positive."""
         course = self.inbetween.course

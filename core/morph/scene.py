@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from core.geometry.flatten import flatten
@@ -12,6 +13,7 @@ from core.model import Document, Easing, Keyframe, Layer, Outline, Recipe, RingP
 from core.model.outline import Array
 from core.model.picture import Picture, Shape
 from core.model.turning import AS_DRAWN
+from core.morph.hanging.rigid import STILL, RigidMotion
 from core.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -67,6 +69,10 @@ class TimedSpan:
 
 class Frames(Protocol):
     """What is seen of a solution."""
+
+    @property
+    def morph(self) -> Morph:
+        """The solution itself."""
 
     @property
     def rings(self) -> tuple[Indices, ...]:
@@ -127,47 +133,92 @@ def solve_span(span: Span, progress: Progress = silent) -> Morph:
     return solve(span, progress)
 
 
-def layer_rings(layer: Layer, frame: float, frames_of: FramesOf[F]) -> tuple[Array, ...]:
+def layer_rings(
+    document: Document, layer: Layer, frame: float, frames_of: FramesOf[F]
+) -> tuple[Array, ...]:
     """Return what a layer shows at a frame, as closed polylines (k, 2), exterior first.
 
     Between keys it is the in-between at the eased time; a key, and a span that has no solution
-    yet, shows the keyframe's own outline.
+    yet, shows the keyframe's own outline. What it hangs on carries it along.
     """
     index, s, frames = _shown(layer, frame, frames_of)
-    if frames is not None:
+    if frames is None:
+        rings = tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
+    else:
         positions = frames.at(s)
-        return tuple(positions[ring] for ring in frames.rings)
-    return tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
+        rings = tuple(positions[ring] for ring in frames.rings)
+    return tuple(map(carried(document, layer, frame, frames_of), rings))
+
+
+def carried(document: Document, layer: Layer, frame: float, frames_of: FramesOf[F]) -> RigidMotion:
+    """Return what moves a layer's own frame to where it is carried by what it hangs on."""
+    if layer.carrier is None:
+        return STILL
+    from core.morph.hanging.run import Run  # shapely loads where layers hang, not before
+
+    found: dict[Morph, F] = {}
+
+    def morph_of(span: Span) -> Morph | None:
+        frames = frames_of(span)
+        if frames is None:
+            return None
+        found[frames.morph] = frames
+        return frames.morph
+
+    @cache
+    def seen(morph: Morph, s: float) -> Array:
+        return found[morph].at(s)
+
+    run = Run.of(document, layer, morph_of)
+    return run.motion(run.index(frame), frame, seen)
+
+
+def turn_of(document: Document, layer: Layer, index: int, morph_of: MorphOf) -> float | None:
+    """Return how far span ``index`` turns, as seen from what the layer hangs on, if anything.
+
+    In radians, clockwise positive; None while that is not known.
+    """
+    morph = morph_of(span_of(layer, index))
+    if morph is None or layer.carrier is None:
+        return None if morph is None else morph.angle
+    from core.morph.hanging.run import Run
+
+    return Run.of(document, layer, morph_of).turn(index)
 
 
 def picture_at(document: Document, frame: float, frames_of: FramesOf[F]) -> Picture:
     """Return the visible layers at a frame."""
     shapes = tuple(
-        Shape(layer.id, layer.name, layer.style, layer_rings(layer, frame, frames_of))
+        Shape(layer.id, layer.name, layer.style, layer_rings(document, layer, frame, frames_of))
         for layer in document.layers
         if layer.visible
     )
     return Picture(frame, document.size, document.background, shapes)
 
 
-def keyframe_at(layer: Layer, frame: int, morph_of: MorphOf) -> tuple[Keyframe, Turning]:
+def keyframe_at(
+    document: Document, layer: Layer, frame: int, morph_of: MorphOf
+) -> tuple[Keyframe, Turning]:
     """Return what the layer shows at a frame as a keyframe of its own, to be inserted there.
 
     The in-between becomes an outline of straight segments, with every mark at its place on it.
-    Outside the layer's keys, and in a span without a solution, the nearest key is repeated. Beside
-    it comes how the shape turns on the way there from now on.
+    Outside the layer's keys, and in a span without a solution, the nearest key is repeated where it
+    is carried. Beside it comes how the shape turns on the way there from now on.
     """
     index, s, morph = _shown(layer, frame, morph_of)
-    turning = layer.keyframes[index].turning
+    turning, moved = layer.keyframes[index].turning, carried(document, layer, frame, morph_of)
     if morph is None:
-        return replace(_nearest_key(layer, index, s), frame=frame), turning
-    source, positions = layer.keyframes[index], morph.at(s)
+        key = _nearest_key(layer, index, s)
+        outline = key.outline.transformed(moved.matrix, moved.offset)
+        return replace(key, frame=frame, outline=outline), turning
+    source, positions = layer.keyframes[index], moved(morph.at(s))
     rest = Outline.polygon(*(morph.rest[ring] for ring in morph.rings))
     marks = tuple(
         nearest_place(rest, source.outline.position(mark))[0] for mark in source.marks
     )  # same vertices, so a place at rest is the place in the in-between
     outline = Outline.polygon(*(positions[ring] for ring in morph.rings))
-    before, after = turning.split(morph.angle, s)
+    angle = turn_of(document, layer, index, morph_of)
+    before, after = turning.split(morph.angle if angle is None else angle, s)
     return Keyframe(frame, outline, marks, turning=after), before
 
 

@@ -16,7 +16,7 @@ from core.model.turning import AS_DRAWN, Turning
 from core.morph.motion.course import Course
 from core.morph.motion.interpolate import Interpolate
 from core.morph.motion.methods import METHODS
-from core.morph.motion.rigid import Rigid
+from core.morph.motion.rigid import PlainRigid, Rigid
 from core.progress import Watch, unwatched
 
 
@@ -46,6 +46,15 @@ class Motion:
     def along(self, turning: Turning) -> Self:
         """Return the motion of the same shape on another course."""
         return self if self.course is None else replace(self, course=self.course.along(turning))
+
+    @property
+    def angles(self) -> Array:
+        """How far each triangle turns (m,) from end to end; as the whole, if that is not known."""
+        if self.course is None:
+            return np.zeros(1)
+        if isinstance(self.shape, Rigid | PlainRigid):
+            return self.shape.theta + self.course.spin
+        return np.array([self.course.angle])
 
     @property
     def can_pass(self) -> bool:

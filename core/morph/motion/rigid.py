@@ -28,7 +28,7 @@ class PlainRigid:
         before = Elements.of(rest, triangles)
         F = before.deformation_gradients(target)
         self.ideal = IdealGradients(F, triangles, before.areas, LinearStretch)
-        self.turn = self.ideal.turn
+        self.turn, self.theta = self.ideal.turn, self.ideal.theta
         self.fit = GradientFit(before, before.areas[:, None, None] * np.eye(2))
 
     def __call__(self, t: float) -> Array:
@@ -58,7 +58,8 @@ class Rigid:
         F = before.deformation_gradients(target)
         weights = _symmetric_weights(before, after, F)
         even = IdealGradients(F, triangles, before.areas, LogStretch)
-        self.turn, self.exponent = even.turn, Exponent.of(F, even.theta)
+        self.turn, self.theta = even.turn, even.theta
+        self.exponent = Exponent.of(F, even.theta)
         self.ideal: Ideal = even if rates is BY_ITSELF else PassingGradients(self.exponent, *rates)
         self.fit = GradientFit(before, weights)
         ends = (end[:, 0] + 1j * end[:, 1] for end in (rest, target))

@@ -177,7 +177,8 @@ def test_insert_keyframe_makes_the_in_between_on_screen_a_key(
     qtbot.waitUntil(lambda: not window.workspace.solver.busy)
     window.workspace.playhead.move_to(13)
     before = window.workspace.session.document
-    shown = layer_rings(window.workspace.selection.layer, 13, window.workspace.solver.morph_of)
+    layer = window.workspace.selection.layer
+    shown = layer_rings(before, layer, 13, window.workspace.solver.morph_of)
     press(window, "K")
     layer = window.workspace.selection.layer
     assert [key.frame for key in layer.keyframes] == [1, 13, 25]

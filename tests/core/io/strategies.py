@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import get_args
 
 import numpy as np
@@ -82,8 +83,12 @@ def layers(draw: st.DrawFn, layer_id: int) -> Layer:
 @st.composite
 def documents(draw: st.DrawFn) -> Document:
     ids = draw(st.lists(st.integers(-(2**40), 2**40), max_size=3, unique=True))
+    found = [draw(layers(i)) for i in ids]
+    for i, layer in enumerate(found):
+        carriers = st.sampled_from([None, *(other.id for other in found[:i])])
+        found[i] = replace(layer, carrier=draw(carriers))
     return Document(
-        tuple(draw(layers(i)) for i in ids),
+        tuple(found),
         draw(POSITIVE),
         (draw(POSITIVE), draw(POSITIVE)),
         draw(COLOURS),

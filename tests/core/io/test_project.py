@@ -202,6 +202,8 @@ def test_the_file_holds_every_field_of_the_model() -> None:
         ("layers.0.recipe.density", 10**9, "recipe.density: 1000000000 is not between"),
         ("layers.0.recipe.method", "magic", "recipe.method: Invalid enum value 'magic'."),
         ("layers.0.name", None, "layers[0].name: Expected `str`, got `null`."),
+        ("layers.0.carrier", 7, "layers[0].carrier: it hangs on itself"),
+        ("layers.0.carrier", 8, "layers[0].carrier: there is no layer 8"),
         ("fps", 0, "fps: 0.0 is not a positive number"),
         ("size.1", -3, "size[1]: -3.0 is not a positive number"),
         ("background", "blue", "background: 'blue' is not a colour"),

@@ -44,6 +44,7 @@ def calls(draw: st.DrawFn, document: Document) -> Call:
         (edits.set_easing, (key, Easing(0.1, 0.2, 0.3, 0.4))),
         (edits.set_passing, (key, True)),
         (edits.set_turning, (key, Turning("clockwise", 3, "straight"))),
+        (edits.hang_layer, (None,)),
         (edits.move_nodes, (key, place.ring, [node[1]], (3.0, -4.0))),
         (edits.set_handles, (key, node, (1.0, 2.0), (3.0, 4.0))),
         (edits.insert_node, (key, place)),
@@ -95,6 +96,7 @@ def test_an_edit_that_changes_nothing_returns_the_very_same_document(document: D
         edits.update_document(document, fps=document.fps),
         edits.update_layer(document, layer.id, style=Style(), recipe=Recipe()),
         edits.reorder_layer(document, layer.id, 0),
+        edits.hang_layer(document, layer.id, None),
         edits.move_keyframe(document, layer.id, 0, key.frame),
         edits.set_easing(document, layer.id, 0, Easing()),
         edits.replace_outline(document, layer.id, 0, deepcopy(key.outline), key.marks),
@@ -132,6 +134,7 @@ def wild_calls(draw: st.DrawFn) -> Call:
         (edits.duplicate_layer, ("copy",)),
         (edits.remove_layer, ()),
         (edits.reorder_layer, (key,)),
+        (edits.hang_layer, (key,)),
         (edits.insert_keyframe, (drawn,)),
         (edits.insert_keyframe, (replace(drawn, marks=()),)),
         (edits.remove_keyframe, (key,)),
@@ -222,6 +225,35 @@ def test_a_duplicate_lies_above_its_original_and_differs_only_in_name(
     assert copy == replace(layer, id=copy.id, name="copy")
     assert len({other.id for other in after.layers}) == len(after.layers)
     assert edits.remove_layer(after, copy.id) == document
+
+
+def hanging(*carriers: int | None) -> Document:
+    """Return layers 1, 2, … that hang on these."""
+    keys = (Keyframe(1, TRIANGLE),)
+    return Document(tuple(Layer(i, "", keys, carrier=c) for i, c in enumerate(carriers, 1)))
+
+
+def test_layers_hang_in_chains_but_never_in_circles() -> None:
+    document = edits.hang_layer(hanging(None, 1, None), 3, 2)
+    assert [layer.id for layer in document.carriers(document.layer(3))] == [2, 1]
+    for layer, carrier in ((1, 1), (1, 2), (1, 3)):
+        with pytest.raises(EditError, match="cannot hang on"):
+            edits.hang_layer(document, layer, carrier)
+    with pytest.raises(EditError, match="no such layer"):
+        edits.hang_layer(document, 1, 4)
+    assert edits.hang_layer(document, 3, None) == hanging(None, 1, None)
+
+
+def test_what_hung_on_a_layer_that_is_removed_hangs_on_nothing() -> None:
+    assert edits.remove_layer(hanging(None, 1, 2), 2).layer(3).carrier is None
+    assert edits.remove_layer(hanging(None, 1, 2), 1).layer(3).carrier == 2
+
+
+def test_a_hidden_layer_that_carries_a_visible_one_moves() -> None:
+    document = edits.update_layer(hanging(None, 1, 2), 1, visible=False)
+    document = edits.update_layer(document, 2, visible=False)
+    assert [layer.id for layer in document.moving] == [1, 2, 3]
+    assert not edits.update_layer(document, 3, visible=False).moving
 
 
 def test_a_new_layer_lies_on_top_with_an_id_of_its_own() -> None:

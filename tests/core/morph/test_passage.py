@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.geometry.location import Located
-from core.model import Easing, Keyframe, Layer, Outline, RingPoint
+from core.model import Document, Easing, Keyframe, Layer, Outline, RingPoint
 from core.model.easing import EASE_IN_OUT, HOLD, LINEAR
 from core.morph import solved
 from core.morph.morph import Morph
@@ -98,8 +98,8 @@ def test_a_shape_that_turns_evenly_about_a_point_goes_on_doing_so_through_its_ke
     poses = (1, 0.0), (5, 0.4), (15, 1.4), (21, 2.0)
     layer, pole = turning(*poses), np.array([20.0, 5.0])
     for frame in np.linspace(1, 21, 41):
-        [ring] = layer_rings(layer, float(frame), solve_span)
-        [start] = layer_rings(layer, 1.0, solve_span)
+        [ring] = layer_rings(Document(), layer, float(frame), solve_span)
+        [start] = layer_rings(Document(), layer, 1.0, solve_span)
         expected = (start - pole) @ rotation(0.1 * (frame - 1)).T + pole
         gaps = np.hypot(*(ring[:, None] - expected[None]).transpose(2, 0, 1)).min(axis=0)
         assert gaps.max() < 1e-7

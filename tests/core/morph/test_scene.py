@@ -35,15 +35,15 @@ def unsolved(span: Span) -> None:
 @pytest.mark.parametrize("easing", [LINEAR, HOLD, Easing(0.3, 0, 0.5, 2.5), Easing(0.3, -2, 1, 1)])
 @pytest.mark.parametrize("frame", [-3, 1, 3, 6, 9, 11, 20])
 def test_the_key_made_at_a_frame_is_what_shows_there(easing: Easing, frame: int, morph: Morph):
-    shown = layer_rings(layer(easing), frame, lambda span: morph)
-    key, _ = keyframe_at(layer(easing), frame, lambda span: morph)
+    shown = layer_rings(Document(), layer(easing), frame, lambda span: morph)
+    key, _ = keyframe_at(Document(), layer(easing), frame, lambda span: morph)
     assert key.frame == frame
     for ring, points in zip(key.outline.rings, shown, strict=True):
         assert np.array_equal(ring.points, points)
 
 
 def test_a_key_made_between_has_the_marks_where_they_travelled(morph: Morph):
-    key, _ = keyframe_at(layer(), 6, lambda span: morph)
+    key, _ = keyframe_at(Document(), layer(), 6, lambda span: morph)
     places = np.array([SOURCE.position(mark) for mark in MARKS])
     vertices = [int(np.argmin(np.hypot(*(morph.rest - place).T))) for place in places]
     found = np.array([key.outline.position(mark) for mark in key.marks])
@@ -54,7 +54,7 @@ def test_a_key_made_between_has_the_marks_where_they_travelled(morph: Morph):
 
 @pytest.mark.parametrize(("frame", "key"), [(1, 0), (5, 0), (7, 1), (11, 1)])
 def test_a_span_without_a_solution_shows_the_nearest_key(frame: int, key: int):
-    [ring] = layer_rings(layer(), frame, unsolved)
+    [ring] = layer_rings(Document(), layer(), frame, unsolved)
     assert np.array_equal(ring, layer().keyframes[key].outline.rings[0].points)
 
 
@@ -75,10 +75,10 @@ def test_whole_turns_are_the_same_with_a_key_made_of_an_in_between(
 
 
 def assert_same_with_a_key_between(before: Layer, morph: Morph) -> None:
-    key, turning = keyframe_at(before, 5, lambda span: morph)
+    key, turning = keyframe_at(Document(), before, 5, lambda span: morph)
     after = insert_keyframe(Document((before,)), 1, key, turning).layers[0]
     for frame in (2, 4, 5, 8, 10):
-        [was] = layer_rings(before, frame, lambda span: morph)
-        [now] = layer_rings(after, frame, solve_span)
+        [was] = layer_rings(Document(), before, frame, lambda span: morph)
+        [now] = layer_rings(Document(), after, frame, solve_span)
         away = np.hypot(*(was[:, None] - now).transpose(2, 0, 1)).min(axis=1)
         assert away.max() < 0.02 * np.ptp(was)

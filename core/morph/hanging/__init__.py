@@ -1,0 +1,1 @@
+"""Layers that hang on others: carried along by them, and joined to them between keys."""

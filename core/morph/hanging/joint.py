@@ -1,0 +1,143 @@
+"""Where a layer is joined to the one it hangs on, and how that one carries it.
+
+The joint is made of vertices that lie on the carrier at a key. Those count most that lie at the
+same place of it at both keys: a limb's where it turns, a wheel's at its hub.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+import shapely
+
+from core.geometry.flatten import flatten
+from core.geometry.rotation import wrap
+from core.geometry.triangulation import Indices
+from core.model.outline import Array
+from core.morph.hanging.rigid import RigidMotion
+from core.morph.hanging.seen import Seen, as_solved
+from core.morph.hanging.track import Track
+from core.morph.morph import Morph
+
+if TYPE_CHECKING:
+    from core.morph.hanging.run import Run, Stretch
+
+MOST_POINTS = 200
+LEAST_POINTS = 8
+"""What lies nearest to the carrier is joined to it, if less lies on it."""
+CLOSE = 0.01
+"""Gap that counts as none, as a fraction of the layer's size."""
+
+
+class Joint(Protocol):
+    """How a layer is carried in one stretch of time."""
+
+    def __call__(self, frame: float, seen: Seen = as_solved) -> RigidMotion:
+        """Return how far it has been carried at a frame."""
+        ...
+
+    def turned(self, frame: float) -> float:
+        """Return the angle of that motion, whole turns included."""
+        ...
+
+
+class StillJoint:
+    """Carries a key that stands still along, from its own frame to those before or after it."""
+
+    def __init__(self, stretch: Stretch, carrier: Run) -> None:
+        outline = np.concatenate([line.points for line in flatten(stretch.outline)])
+        self._points = outline[_joined(outline, carrier, stretch.drawn)]
+        self._track = Track(carrier, stretch.drawn, self._points)
+
+    def __call__(self, frame: float, seen: Seen = as_solved) -> RigidMotion:
+        """Return the motion of the place that it is joined to."""
+        return RigidMotion.between(self._points, self._track(frame, seen))
+
+    def turned(self, frame: float) -> float:
+        """Return the angle of that motion, whole turns included."""
+        return _on_branch(self(frame).turn, self._track.turned(frame))
+
+
+class MovingJoint:
+    """Keeps a span's frames joined to the carrier, and turns them with it.
+
+    The span's own turn is what the carrier's leaves of it; whole turns besides are about the
+    layer's own centre, and do not move the joint.
+    """
+
+    def __init__(self, stretch: Stretch, morph: Morph, carrier: Run) -> None:
+        first, last = stretch.first, stretch.last
+        self._stretch, self._morph = stretch, morph
+        joined = _joined(morph.rest, carrier, first), _joined(morph.target, carrier, last)
+        self._tracks = (
+            Track(carrier, first, morph.rest[joined[0]]),
+            Track(carrier, last, morph.target[joined[1]], ends=True),
+        )
+        self._vertices = np.concatenate(joined)
+        self._start, end = self._places(first), self._places(last)
+        self._gaps = morph.rest[self._vertices] - self._start, morph.target[self._vertices] - end
+        size = CLOSE * np.hypot(*np.ptp(morph.rest, axis=0))
+        apart = sum((gap**2).sum(axis=1) for gap in self._gaps) / size**2
+        self._weights = 1 / (1 + apart) ** 2
+        self._weights /= self._weights.sum()
+        self._seen = self._seen_turn(self._carrier_turned(last, end))
+
+    @property
+    def angle(self) -> float:
+        """How far the layer turns in all, as seen from the carrier."""
+        course = self._morph.inbetween.course
+        return 0.0 if course is None else course.turning.angle(self._seen)
+
+    def turned(self, frame: float) -> float:
+        """Return how far it is turned at a frame, besides what the span itself turns."""
+        return self._turned(frame, self._places(frame))
+
+    def __call__(self, frame: float, seen: Seen = as_solved) -> RigidMotion:
+        """Return what moves the span's own frame to its place."""
+        s, places = self._stretch.progress(frame), self._places(frame, seen)
+        x, (before, after) = seen(self._morph, s), self._gaps
+        goal = complex(*(self._weights @ (places + (1 - s) * before + s * after)))
+        joint = complex(*(self._weights @ x[self._vertices]))
+        course = self._morph.inbetween.course
+        if course is None:
+            return RigidMotion(1, goal - joint)
+        whole = self.angle - course.turning.swing(self._seen)
+        turn, centre = np.exp(1j * self._turned(frame, places)), complex(*(course.mass @ x))
+        arm = turn * np.exp(-1j * s * whole) * (joint - centre)
+        return RigidMotion(turn, goal - arm - turn * centre)
+
+    def _turned(self, frame: float, places: Array) -> float:
+        if self._morph.inbetween.course is None:
+            return 0.0
+        own = self._stretch.progress(frame) * (self.angle - self._morph.angle)
+        return self._carrier_turned(frame, places) + own
+
+    def _carrier_turned(self, frame: float, places: Array) -> float:
+        """Return how far the carrier has turned where it has its part of the joint."""
+        turn = RigidMotion.between(self._start, places).turn
+        return _on_branch(turn, self._tracks[0].turned(frame))
+
+    def _seen_turn(self, carried: float) -> float:
+        """Return the span's own turn, in [-π, π), as seen from a carrier that turns so far."""
+        course = self._morph.inbetween.course
+        return 0.0 if course is None else float(wrap(np.array(course.turn - carried)))
+
+    def _places(self, frame: float, seen: Seen = as_solved) -> Array:
+        """Return where the carrier has its part of the joint (k, 2) at a frame."""
+        return np.concatenate([track(frame, seen) for track in self._tracks])
+
+
+def _joined(points: Array, carrier: Run, frame: float) -> Indices:
+    """Return the indices of points (n, 2) that lie on the carrier, or else are nearest to it."""
+    rings = carrier.rings(frame)
+    distance = shapely.distance(shapely.Polygon(rings[0], rings[1:]), shapely.points(points))
+    on: Indices = np.flatnonzero(distance == 0)
+    if len(on) < LEAST_POINTS:
+        on = np.argsort(distance, kind="stable")[:LEAST_POINTS]
+    return on[:: 1 + len(on) // MOST_POINTS]
+
+
+def _on_branch(turn: complex, near: float) -> float:
+    """Return the angle of a rotation that is nearest to another angle."""
+    return near + float(wrap(np.array(np.angle(turn) - near)))

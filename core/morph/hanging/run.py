@@ -1,0 +1,121 @@
+"""A layer through all time, as it is shown: carried along by what it hangs on."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import inf
+
+from core.geometry.flatten import flatten
+from core.model import Document, Easing, Layer, Outline
+from core.model.easing import HOLD
+from core.model.outline import Array
+from core.morph.hanging.joint import Joint, MovingJoint, StillJoint
+from core.morph.hanging.rigid import STILL, RigidMotion
+from core.morph.hanging.seen import Seen, as_solved
+from core.morph.morph import Morph
+from core.morph.scene import MorphOf, span_of
+
+KEPT = 128
+"""How many joints are remembered."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A key that stands still, or a span; solutions are compared by identity."""
+
+    first: float
+    last: float
+    outline: Outline
+    """The key's; the first one's of a span."""
+    drawn: float
+    """The key's frame."""
+    easing: Easing = HOLD
+    morph: Morph | None = None
+    """None where nothing moves, or while nothing is solved."""
+
+    def progress(self, frame: float) -> float:
+        """Return s at a frame, taken to lie in the stretch."""
+        if self.morph is None:
+            return 0.0
+        return self.easing((frame - self.first) / (self.last - self.first))
+
+    def as_drawn(self, frame: float) -> bool:
+        """Return whether a frame shows a key where it was drawn."""
+        return frame == self.drawn or (self.morph is not None and frame in (self.first, self.last))
+
+
+@dataclass(frozen=True)
+class Run:
+    """Stretches of a layer that follow each other without a gap; compared by value."""
+
+    stretches: tuple[Stretch, ...]
+    carrier: Run | None = None
+
+    @classmethod
+    def of(cls, document: Document, layer: Layer, morph_of: MorphOf) -> Run:
+        """Look up all that has been solved of a layer, and of those that carry it."""
+        keys, spans = layer.keyframes, range(layer.spans)
+        stretches = [Stretch(-inf, keys[0].frame, keys[0].outline, keys[0].frame)]
+        for span, key, later in zip(spans, keys, keys[1:], strict=False):
+            easing = layer.easing_of(span)
+            morph = None if easing.hold else morph_of(span_of(layer, span))
+            stretches.append(Stretch(key.frame, later.frame, key.outline, key.frame, easing, morph))
+        stretches.append(Stretch(keys[-1].frame, inf, keys[-1].outline, keys[-1].frame))
+        carrier = None
+        if layer.carrier is not None:
+            carrier = cls.of(document, document.layer(layer.carrier), morph_of)
+        return cls(tuple(stretches), carrier)
+
+    def index(self, frame: float) -> int:
+        """Return the stretch that a frame is in; a key begins one."""
+        return bisect_right(self._firsts, frame) - 1
+
+    def index_before(self, frame: float) -> int:
+        """Return the stretch that a frame is in; a key ends one."""
+        return bisect_left(self._firsts, frame) - 1
+
+    def joint(self, index: int) -> Joint | None:
+        """Return how a stretch is joined to the carrier, if there is one."""
+        stretch = self.stretches[index]
+        unsolved = stretch.morph is None and not stretch.easing.hold
+        return None if self.carrier is None or unsolved else _joint(stretch, self.carrier)
+
+    def turn(self, span: int) -> float | None:
+        """Return how far a span turns, as seen from the carrier."""
+        joint = self.joint(span + 1)
+        return joint.angle if isinstance(joint, MovingJoint) else None
+
+    def motion(self, index: int, frame: float, seen: Seen = as_solved) -> RigidMotion:
+        """Return how the carrier moves what is in a stretch at a frame."""
+        drawn = self.carrier is None or self.stretches[index].as_drawn(frame)
+        joint = None if drawn else self.joint(index)
+        return STILL if joint is None else joint(frame, seen)
+
+    def turned(self, index: int, frame: float) -> float:
+        """Return the angle of that motion, whole turns included."""
+        joint = self.joint(index)
+        return 0.0 if joint is None else joint.turned(frame)
+
+    def rings(self, frame: float) -> tuple[Array, ...]:
+        """Return what is shown at a frame, as closed polylines (k, 2), exterior first."""
+        index = self.index(frame)
+        stretch = self.stretches[index]
+        if stretch.morph is None:
+            rings = tuple(line.points for line in flatten(stretch.outline))
+        else:
+            points = stretch.morph.at(stretch.progress(frame))
+            rings = tuple(points[ring] for ring in stretch.morph.rings)
+        return tuple(map(self.motion(index, frame), rings))
+
+    @cached_property
+    def _firsts(self) -> list[float]:
+        return [stretch.first for stretch in self.stretches]
+
+
+@lru_cache(KEPT)
+def _joint(stretch: Stretch, carrier: Run) -> Joint:
+    if stretch.morph is None:
+        return StillJoint(stretch, carrier)
+    return MovingJoint(stretch, stretch.morph, carrier)
