@@ -26,15 +26,22 @@ class Choice(CalmWheel, QComboBox):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumHeight(TARGET_SIZE)
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self._values: list[Any] = []
-        for text, value in options:
-            self.addItem(text)
-            self._values.append(value)
+        self._options: list[tuple[str, Any]] = []
+        self.offer(options)
         self.activated.connect(self._on_activated)
+
+    def offer(self, options: Iterable[tuple[str, Any]]) -> None:
+        """Offer these options from now on; nothing is emitted."""
+        options = list(options)
+        if options != self._options:
+            self._options = options
+            self.clear()
+            self.addItems([text for text, _ in options])
 
     def show_value(self, value: Any) -> None:
         """Show a value, or nothing if it is none of the options; nothing is emitted."""
-        self.setCurrentIndex(self._values.index(value) if value in self._values else -1)
+        values = [value for _, value in self._options]
+        self.setCurrentIndex(values.index(value) if value in values else -1)
 
     def _on_activated(self, index: int) -> None:
-        self.edited.emit(self._values[index])
+        self.edited.emit(self._options[index][1])

@@ -1,4 +1,4 @@
-"""How the current layer is painted."""
+"""How the current layer is painted, and what it hangs on."""
 
 from __future__ import annotations
 
@@ -7,18 +7,19 @@ from typing import Any
 
 from PySide6.QtWidgets import QWidget
 
+from app.fields.choice import Choice
 from app.fields.colour import ColourField
 from app.fields.number import NumberField
 from app.panels.section import Section
 from app.workspace import Workspace
-from core.model import Document
-from core.model.edits import update_layer
+from core.model import Document, Layer
+from core.model.edits import hang_layer, update_layer
 
 WIDEST = 500.0
 
 
 class LayerSection(Section):
-    """Fill, stroke, and how wide the stroke is."""
+    """Fill, stroke, how wide the stroke is, and which layer carries this one."""
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__("", workspace, parent)
@@ -36,7 +37,17 @@ class LayerSection(Section):
         self.stroke_width.edited.connect(self._set_stroke_width)
         self.add_row(self.tr("Fill"), self.fill)
         self.add_row(self.tr("Stroke"), self.stroke)
+        self.carrier = Choice(self.tr("Hangs on"), [])
+        self.carrier.setToolTip(
+            self.tr(
+                "The layer that carries this one along: where both are joined at the keys,\n"
+                "they stay joined between them, and this one turns as seen from there.\n"
+                "A layer with a single key goes wherever it is carried."
+            )
+        )
+        self.carrier.edited.connect(self._hang)
         self.add_row(self.tr("Width"), self.stroke_width)
+        self.add_row(self.tr("Hangs on"), self.carrier)
 
     def refresh(self) -> None:
         """Show the style of the current layer."""
@@ -48,6 +59,25 @@ class LayerSection(Section):
             self.stroke.show_value(layer.style.stroke)
             self.stroke_width.show_value(layer.style.stroke_width)
             self.stroke_width.setEnabled(bool(layer.style.stroke))
+            self._show_carrier(layer)
+
+    def _show_carrier(self, layer: Layer) -> None:
+        """Offer every layer that does not itself hang on this one, the topmost first."""
+        document = self.workspace.session.document
+        others = [
+            (other.name, other.id)
+            for other in reversed(document.layers)
+            if other is not layer and layer not in document.carriers(other)
+        ]
+        self.carrier.offer([(self.tr("Nothing"), None), *others])
+        self.carrier.show_value(layer.carrier)
+        self.carrier.setEnabled(not layer.locked and bool(others))
+
+    def _hang(self, carrier: int | None) -> None:
+        layer = self.workspace.selection.layer
+        if layer is not None:
+            text = self.tr("Hang layer") if carrier is not None else self.tr("Take layer off")
+            self.workspace.session.apply(text, hang_layer, layer.id, carrier)
 
     def _begin_fill(self) -> None:
         self.workspace.session.begin(self.tr("Change fill"))

@@ -120,11 +120,16 @@ class SpanSection(Section):
             [(self.tr("Arc"), "arc"), (self.tr("Straight"), "straight")],
         )
         self.path.setToolTip(
-            self.tr("Arc: round the point that the shape turns and grows about, as a limb does")
+            self.tr(
+                "Arc: round the point that the shape turns and grows about, as a limb does.\n"
+                "A layer that hangs on another goes where that one carries it."
+            )
         )
         self.path.edited.connect(self._set_path)
         self.angle = QLabel()
-        self.angle.setToolTip(self.tr("How far the shape turns as a whole"))
+        self.angle.setToolTip(
+            self.tr("How far the shape turns as a whole, as seen from what it hangs on")
+        )
 
     def refresh(self) -> None:
         """Show the span under the playhead, and where in it the playhead is."""
@@ -143,8 +148,10 @@ class SpanSection(Section):
         self.path.show_value(first.turning.path)
         for field in (self.preset, self.curve):
             field.setEnabled(not layer.locked)
-        for field in (self.direction, self.turns, self.path):
-            field.setEnabled(not layer.locked and layer.recipe.method != "linear")
+        turns = not layer.locked and layer.recipe.method != "linear"
+        for field in (self.direction, self.turns):
+            field.setEnabled(turns)
+        self.path.setEnabled(turns and layer.carrier is None)
         self.show_angle()
 
     def show_angle(self) -> None:

@@ -45,7 +45,7 @@ def panel(workspace: Workspace, qtbot: QtBot) -> PropertiesPanel:
     workspace.playhead.move_to(13)
     panel = PropertiesPanel(workspace)
     qtbot.addWidget(panel)
-    panel.resize(260, 1200)
+    panel.resize(260, 1300)
     panel.show()
     qtbot.waitExposed(panel)
     panel.activateWindow()
