@@ -113,7 +113,12 @@ class SpanSection(Section):
         self.direction.setToolTip(self.tr("Which way the shape turns to the next key"))
         self.direction.edited.connect(self._set_direction)
         self.turns = NumberField(self.tr("Extra whole turns"), 0, MOST_TURNS)
-        self.turns.setToolTip(self.tr("Whole turns besides, about the shape's own centre"))
+        self.turns.setToolTip(
+            self.tr(
+                "Whole turns besides, about the shape's own centre.\n"
+                "A part that turns by itself, as a propeller does, is a layer that hangs on another."
+            )
+        )
         self.turns.edited.connect(self._set_turns)
         self.path = Choice(
             self.tr("Path of the centre"),
