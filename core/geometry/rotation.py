@@ -13,6 +13,16 @@ from core.model.outline import Array
 Complex = NDArray[np.complex128]
 
 
+def to_complex(points: Array) -> Complex:
+    """Return points (n, 2) as complex numbers (n,)."""
+    return points[:, 0] + 1j * points[:, 1]
+
+
+def to_points(z: Complex) -> Array:
+    """Return complex numbers (n,) as points (n, 2), without a copy."""
+    return z.view(float).reshape(-1, 2)
+
+
 def polar(F: Array) -> tuple[Array, Array]:
     """Split F = R(θ) S with S symmetric: (m, 2, 2) → θ (m,) in (-π, π] and S (m, 2, 2).
 
@@ -36,7 +46,7 @@ def phasor(angle: Array) -> Complex:
 
     One tangent of half the angle takes a fraction of the time of a sine and a cosine.
     """
-    half = np.tan(angle / 2)
+    half = np.tan(0.5 * angle)
     scale = 2 / (1 + half * half)
     out = np.empty(len(angle), dtype=complex)
     np.subtract(scale, 1, out=out.real)

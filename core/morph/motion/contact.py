@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 from shapely import Polygon
 
-from core.geometry.rotation import Complex
+from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.motion.barrier import Derivatives
@@ -57,7 +57,7 @@ class Contact:
 
     def crosses(self, z: Complex) -> bool:
         """Whether the boundary crosses itself at positions z (n,)."""
-        rings = [z[ring].view(float).reshape(-1, 2) for ring in self._rings]
+        rings = [to_points(z[ring]) for ring in self._rings]
         return not Polygon(rings[0], rings[1:]).is_valid
 
     def corners(self, pairs: Indices) -> Indices:
@@ -202,7 +202,7 @@ def _outer(a: Array, b: Array) -> Array:
 
 
 def _tree(z: Complex) -> cKDTree:
-    return cKDTree(z.view(float).reshape(-1, 2))
+    return cKDTree(to_points(z))
 
 
 def aligned(z: Complex, model: Complex) -> Complex:

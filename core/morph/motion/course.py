@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import log, sqrt
 from typing import Self
 
@@ -79,7 +80,7 @@ class Course:
             return end - start
         return complex(self._rate * np.exp(t * self._rate) / np.expm1(self._rate)) * (end - start)
 
-    @property
+    @cached_property
     def _rate(self) -> complex:
         """Growth and swing per unit t on the arc, as a complex logarithm; 0 for a straight path."""
         if self.turning.path == "straight":

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
+from collections.abc import Sequence
+
 import numpy as np
 
 from core.geometry.rotation import Complex, phasor
@@ -17,7 +20,7 @@ class Departures:
     no change of it.
     """
 
-    def __init__(self, turning: Array, times: Array, departures: Complex) -> None:
+    def __init__(self, turning: Array, times: Sequence[float], departures: Complex) -> None:
         """Prepare for departures (k, n) at times (k,) from 0 to 1.
 
         ``turning`` (n,) is how far the shape turns around each vertex per unit of time.
@@ -31,9 +34,9 @@ class Departures:
 
     def __call__(self, t: float) -> Complex:
         """Return the departure (n,) at t between 0 and 1."""
-        k = int(np.searchsorted(self._times, t))
+        k = bisect_left(self._times, t)
         width = self._times[k] - self._times[k - 1]
-        s = float(t - self._times[k - 1]) / width
+        s = (t - self._times[k - 1]) / width
         rise = s * s * (3 - 2 * s)
         value = (1 - rise) * self._values[k - 1] + rise * self._values[k]
         for bump, slope in zip(bumps(s), self._slopes[k - 1 : k + 1], strict=True):

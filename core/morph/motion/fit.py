@@ -9,7 +9,7 @@ from scipy.sparse import bsr_array, csr_array
 
 from core.fem.elements import Elements
 from core.fem.newton import factorise
-from core.geometry.rotation import Complex
+from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -34,8 +34,7 @@ class GradientFit:
 
     def load(self, ideal: Complex) -> Array:
         """Return the right-hand sides (n, 2) for ideal gradients: turns and mirrors (2, m)."""
-        forces = self._load @ ideal.ravel()
-        return np.array([forces.real, forces.imag]).T  # column by column, as the solver wants it
+        return to_points(self._load @ ideal.ravel())
 
     def solve(self, load: Array) -> Array:
         """Return the positions (n, 2) that balance a load (n, 2)."""

@@ -14,8 +14,8 @@ from core.geometry.rotation import Complex, phasor, turn_and_mirror, unwrap
 from core.geometry.triangulation import Indices, adjacent_triangles
 from core.model.outline import Array
 
-Stretch = Callable[[float, Complex], None]
-"""Multiplies S(t), on the way from I to S, into turns and mirrors (2, m) that hold rotations."""
+Stretch = Callable[[float], tuple[Array, Complex]]
+"""Returns turn (m,) and mirror (m,) of S(t), on the way from I to S."""
 
 
 class IdealGradients:
@@ -43,9 +43,10 @@ class IdealGradients:
 
     def __call__(self, t: float) -> Complex:
         """Return turn and mirror of B(t) (2, m)."""
-        B = np.empty((2, len(self.theta)), dtype=complex)
-        B[:] = phasor(t * self.theta)
-        self._stretch(t, B)
+        rotation = phasor(t * self.theta)
+        B = np.empty((2, len(rotation)), dtype=complex)
+        for part, out in zip(self._stretch(t), B, strict=True):
+            np.multiply(rotation, part, out=out)
         return B
 
 
@@ -55,10 +56,9 @@ class LinearStretch:
     def __init__(self, turn: Array, mirror: Complex) -> None:
         self._turn, self._mirror = turn, mirror
 
-    def __call__(self, t: float, B: Complex) -> None:
-        """Multiply S(t) into rotations B (2, m)."""
-        B[0] *= (1 - t) + t * self._turn
-        B[1] *= t * self._mirror
+    def __call__(self, t: float) -> tuple[Array, Complex]:
+        """Return turn and mirror of S(t) (m,)."""
+        return (1 - t) + t * self._turn, t * self._mirror
 
 
 class LogStretch:
@@ -66,15 +66,14 @@ class LogStretch:
 
     def __init__(self, turn: Array, mirror: Complex) -> None:
         half = np.abs(mirror)
-        self._axes = mirror / np.where(half > 0, half, 1)
-        """(m,) the axes of stretch: half the angle, as a unit complex number."""
-        self._logs = np.log(turn + half), np.log(turn - half)
+        self._half_axes = mirror / np.where(half > 0, 2 * half, 1)
+        """(m,) the axes of stretch: half the angle, as a complex number, of length ½."""
+        self._logs = np.log([turn + half, turn - half])
 
-    def __call__(self, t: float, B: Complex) -> None:
-        """Multiply Sᵗ, from its eigenvalues, into rotations B (2, m)."""
-        high, low = (np.exp(t * log) / 2 for log in self._logs)
-        B[0] *= high + low
-        B[1] *= (high - low) * self._axes
+    def __call__(self, t: float) -> tuple[Array, Complex]:
+        """Return turn and mirror of Sᵗ (m,), from its eigenvalues."""
+        high, low = np.exp(t * self._logs)
+        return 0.5 * (high + low), (high - low) * self._half_axes
 
 
 def determinant(B: Complex) -> Array:

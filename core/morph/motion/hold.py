@@ -12,7 +12,7 @@ from typing import Self
 
 import numpy as np
 
-from core.geometry.rotation import Complex
+from core.geometry.rotation import Complex, to_complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.motion.barrier import Gaps, settle
@@ -144,7 +144,7 @@ class Hold:
         offset = settle(fitted, grip.stiffness, felt, start[held]) - fitted
         force = np.zeros(len(start), dtype=complex)
         force[held] = grip.stiffness @ offset
-        return wanted.fitted + to_complex(self._fit.solve(np.array([force.real, force.imag]).T))
+        return wanted.fitted + to_complex(self._fit.solve(to_points(force)))
 
 
 def _without(some: Indices, others: Indices) -> Indices:
@@ -153,8 +153,3 @@ def _without(some: Indices, others: Indices) -> Indices:
         return some
     place = np.searchsorted(others, some)
     return some[others[np.minimum(place, len(others) - 1)] != some]
-
-
-def to_complex(points: Array) -> Complex:
-    """Return points (n, 2) as complex numbers."""
-    return points[:, 0] + 1j * points[:, 1]

@@ -11,7 +11,7 @@ import numpy as np
 
 from core.fem.elements import Elements
 from core.fem.newton import factorise
-from core.geometry.rotation import Complex
+from core.geometry.rotation import Complex, to_complex, to_points
 from core.geometry.triangulation import Indices, boundary_rings
 from core.model.outline import Array
 from core.progress import Watch, unwatched
@@ -30,7 +30,7 @@ class Intrinsic:
         self, rest: Array, target: Array, triangles: Indices, watch: Watch = unwatched
     ) -> None:
         rings = boundary_rings(triangles)
-        z, w = _complex(rest), _complex(target)
+        z, w = to_complex(rest), to_complex(target)
         exterior = max(rings, key=lambda ring: np.ptp(z[ring].real))
         self.turn = _mean_turn(z[exterior], w[exterior])
         w = w * np.exp(-1j * self.turn)
@@ -45,7 +45,7 @@ class Intrinsic:
             x[ring] = path(t)
         # the target's inner vertices need not lie where its boundary alone would put them
         x = (self._extension(x) + t * self._drift) * np.exp(1j * t * self.turn)
-        return np.column_stack([x.real, x.imag])
+        return to_points(x)
 
 
 class _RingPath:
@@ -94,13 +94,9 @@ class _Extension:
         z = z.copy()
         if self._factor is not None:
             load = self._load @ z[self._border]
-            solved = self._factor.solve(-np.column_stack([load.real, load.imag]))
-            z[self._inner] = _complex(solved)
+            solved = self._factor.solve(-to_points(load))
+            z[self._inner] = to_complex(solved)
         return z
-
-
-def _complex(points: Array) -> Complex:
-    return points[:, 0] + 1j * points[:, 1]
 
 
 def _directions(edges: Complex) -> Array:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from core.fem.elements import Elements
+from core.geometry.rotation import to_complex
 from core.geometry.triangulation import Indices, boundary_rings
 from core.model.outline import Array
 from core.morph.motion.contact import Contact
@@ -62,7 +63,7 @@ class Rigid:
         self.exponent = Exponent.of(F, even.theta)
         self.ideal: Ideal = even if rates is BY_ITSELF else PassingGradients(self.exponent, *rates)
         self.fit = GradientFit(before, weights)
-        ends = (end[:, 0] + 1j * end[:, 1] for end in (rest, target))
+        ends = (to_complex(end) for end in (rest, target))
         contact = Contact(boundary_rings(triangles), *ends)
         guard = FoldGuard(before, after)
         turning = _around_vertices(even.theta, before)

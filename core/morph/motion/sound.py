@@ -7,6 +7,7 @@ and the moment alone, whatever was asked for before.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -14,7 +15,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from core.geometry.rotation import Complex, phasor
+from core.geometry.rotation import Complex, phasor, to_complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.motion.contact import Contact, aligned
@@ -22,7 +23,7 @@ from core.morph.motion.departures import Departures
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import determinant
 from core.morph.motion.guard import FoldGuard
-from core.morph.motion.hold import Hold, Wanted, to_complex
+from core.morph.motion.hold import Hold, Wanted
 from core.progress import Watch
 
 SURVEY = 16
@@ -106,8 +107,7 @@ class SoundFrames:
         x, trouble = self._carried(t)
         if trouble is None:
             return x
-        z = self._settled(t, *trouble)
-        return np.column_stack([z.real, z.imag])
+        return to_points(self._settled(t, *trouble))
 
     def plain(self, t: float) -> Array | None:
         """Return positions (n, 2) at t if they need not be settled, which costs little."""
@@ -122,10 +122,8 @@ class SoundFrames:
         ideal = self._ideal(t)
         x = self._fit(ideal)
         if self._departures is not None and 0 < t < 1:
-            departure = self._departures(t)
-            x[:, 0] += departure.real
-            x[:, 1] += departure.imag
-        stretch = self._stretches[np.searchsorted(self._times, t)]
+            x += to_points(self._departures(t))
+        stretch = self._stretches[bisect_left(self._times, t)]
         if stretch is None:
             return x, None
         wanted = Wanted(to_complex(x), determinant(ideal))
@@ -170,7 +168,7 @@ class SoundFrames:
 
     def _lay(self, anchors: Sequence[Anchor]) -> None:
         """Carry departures from anchor to anchor."""
-        self._times = np.array([anchor.t for anchor in anchors])
+        self._times = [anchor.t for anchor in anchors]
         self._departures: Departures | None = None
         if any(anchor.held for anchor in anchors):
             self._departures = Departures(
