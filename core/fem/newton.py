@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import qdldl
-from scipy.sparse import csc_array, csc_matrix
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse import csc_array, csc_matrix, triu
 
 from core.fem.elements import Elements, determinants
 from core.fem.energies import Density, Derivatives
@@ -34,14 +33,22 @@ PAIRS = np.triu_indices(6)
 """The upper triangle of an element matrix: rows and columns."""
 
 
-def factorise(matrix: csc_array) -> SuperLU:
-    """Factor a sparse symmetric positive definite matrix by LU, without pivoting."""
-    return splu(
-        matrix,
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
+class Factor:
+    """A sparse symmetric positive definite matrix, factored as L D Lᵀ once for many loads.
+
+    QDLDL and not scipy's SuperLU, whose memory is lost where a factor dies in another thread than
+    it was made in (scipy issue 15921).
+    """
+
+    def __init__(self, matrix: csc_array) -> None:
+        self._solver = qdldl.Solver(csc_matrix(triu(matrix)), upper=True)
+
+    def solve(self, load: Array) -> Array:
+        """Return x (n, k) for which the matrix times x is a load (n, k), column by column."""
+        x = np.empty(load.shape[::-1])
+        for row, column in zip(x, load.T, strict=True):
+            row[:] = self._solver.solve(column)
+        return x.T
 
 
 class FreeVertices:

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.fem.elements import Elements, determinants
 from core.fem.energies import Density, StVenantKirchhoff, SymmetricDirichlet
-from core.fem.newton import FreeVertices, factorise, line_search, newton_step
+from core.fem.newton import Factor, FreeVertices, line_search, newton_step
 from core.geometry.triangulation import Mesh
 from core.model import Recipe
 from core.model.outline import Array
@@ -89,7 +89,7 @@ def harmonic(elements: Elements, boundary: Array) -> Array:
     inner = matrix[b:, b:]
     x = np.vstack([boundary, np.zeros((elements.vertices - b, 2))])
     if inner.shape[0]:
-        x[b:] = factorise(inner).solve(-(matrix[b:, :b] @ boundary))
+        x[b:] = Factor(inner).solve(-(matrix[b:, :b] @ boundary))
     return x
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import bsr_array, csr_array
 
 from core.fem.elements import Elements
-from core.fem.newton import factorise
+from core.fem.newton import Factor
 from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
@@ -29,7 +29,7 @@ class GradientFit:
         blocks = bsr_array((weights, np.arange(m), np.arange(m + 1)), shape=(2 * m, 2 * m))
         matrix = csr_array(elements.operator.T @ blocks.tocsr() @ elements.operator)
         matrix[0, 0] *= 2
-        self._factor = factorise(matrix.tocsc())
+        self._factor = Factor(matrix.tocsc())
         self._load = _load_operator(elements, weights)
 
     def load(self, ideal: Complex) -> Array:

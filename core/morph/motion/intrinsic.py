@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from core.fem.elements import Elements
-from core.fem.newton import factorise
+from core.fem.newton import Factor
 from core.geometry.rotation import Complex, to_complex, to_points
 from core.geometry.triangulation import Indices, boundary_rings
 from core.model.outline import Array
@@ -87,7 +87,7 @@ class _Extension:
         self._inner = np.setdiff1d(np.arange(elements.vertices), border)
         rows = elements.laplacian[self._inner]
         self._load = rows[:, border]
-        self._factor = factorise(rows[:, self._inner].tocsc()) if len(self._inner) else None
+        self._factor = Factor(rows[:, self._inner].tocsc()) if len(self._inner) else None
 
     def __call__(self, z: Complex) -> Complex:
         """Return positions (n,) with the boundary of z (n,) and harmonic inside."""
