@@ -13,7 +13,7 @@ from app.workspace import Workspace
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.model.picture import Picture
-from core.morph.scene import Span, carried, picture_at, span_of
+from core.morph.scene import Span, carrying, picture_at, span_of
 
 if TYPE_CHECKING:
     from core.morph.morph import Morph
@@ -75,7 +75,7 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     span, t = layer.span_at(frame)
     s = layer.progress_at(frame)[1]
     morph = workspace.solver.morph_of(span_of(layer, span))
-    moved = carried(document, layer, frame, shown_by(workspace))
+    moved = carrying(document, shown_by(workspace))(layer, frame)
     positions = None if morph is None else moved(workspace.frames.at(morph, s))
     known = frame.is_integer() and layer.id not in late
     check = workspace.inspector.frame_check(layer.id, frame) if known else None

@@ -116,7 +116,7 @@ class SpanSection(Section):
         self.turns.setToolTip(
             self.tr(
                 "Whole turns besides, about the shape's own centre.\n"
-                "A part that turns by itself, as a propeller does, is a layer that hangs on another."
+                "A part that turns by itself, like a propeller, is a layer that hangs on another."
             )
         )
         self.turns.edited.connect(self._set_turns)

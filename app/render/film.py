@@ -13,7 +13,7 @@ from core.io.exporters import Track
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.model.picture import Picture
-from core.morph.scene import MorphOf, carried, layer_rings, picture_at, span_of
+from core.morph.scene import MorphOf, carrying, layer_rings, picture_at, span_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +49,7 @@ class DocumentFilm:
         for frame in range(first, last + 1):
             span, s = layer.progress_at(frame)
             by_span.setdefault(span, {})[frame] = s
+        carry = carrying(self.document, self.morph_of)
         for span, progress in by_span.items():
             frames = list(progress)
             morph = self.morph_of(span_of(layer, span)) if layer.spans else None
@@ -60,10 +61,7 @@ class DocumentFilm:
                 boundary = _consecutive(rings)
             else:
                 positions = np.stack(
-                    [
-                        carried(self.document, layer, frame, self.morph_of)(morph.at(s))
-                        for frame, s in progress.items()
-                    ]
+                    [carry(layer, frame)(morph.at(s)) for frame, s in progress.items()]
                 )
                 triangles, boundary = morph.triangles, morph.rings
             yield Track(layer.name, positions, triangles, boundary, frames, times)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from core.geometry.flatten import flatten
@@ -88,6 +87,8 @@ FramesOf = Callable[[Span], F | None]
 """Looks up what is seen of a span's solution; None while there is none."""
 MorphOf = Callable[[Span], "Morph | None"]
 """Looks a span's solution up; None while there is none."""
+Carry = Callable[[Layer, float], RigidMotion]
+"""Tells what moves a layer's own frame to where it is carried."""
 
 
 def span_of(layer: Layer, index: int) -> Span:
@@ -141,36 +142,27 @@ def layer_rings(
     Between keys it is the in-between at the eased time; a key, and a span that has no solution
     yet, shows the keyframe's own outline. What it hangs on carries it along.
     """
-    index, s, frames = _shown(layer, frame, frames_of)
-    if frames is None:
-        rings = tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
-    else:
-        positions = frames.at(s)
-        rings = tuple(positions[ring] for ring in frames.rings)
-    return tuple(map(carried(document, layer, frame, frames_of), rings))
+    return _rings(layer, frame, frames_of, carrying(document, frames_of))
 
 
-def carried(document: Document, layer: Layer, frame: float, frames_of: FramesOf[F]) -> RigidMotion:
-    """Return what moves a layer's own frame to where it is carried by what it hangs on."""
-    if layer.carrier is None:
-        return STILL
-    from core.morph.hanging.run import Run  # shapely loads where layers hang, not before
+def picture_at(document: Document, frame: float, frames_of: FramesOf[F]) -> Picture:
+    """Return the visible layers at a frame."""
+    carry = carrying(document, frames_of)
+    shapes = tuple(
+        Shape(layer.id, layer.name, layer.style, _rings(layer, frame, frames_of, carry))
+        for layer in document.layers
+        if layer.visible
+    )
+    return Picture(frame, document.size, document.background, shapes)
 
-    found: dict[Morph, F] = {}
 
-    def morph_of(span: Span) -> Morph | None:
-        frames = frames_of(span)
-        if frames is None:
-            return None
-        found[frames.morph] = frames
-        return frames.morph
+def carrying(document: Document, frames_of: FramesOf[F]) -> Carry:
+    """Return what tells where layers are carried by what they hang on."""
+    if all(layer.carrier is None for layer in document.layers):
+        return lambda layer, frame: STILL
+    from core.morph.hanging.carriers import Carriers  # shapely loads where layers hang, not before
 
-    @cache
-    def seen(morph: Morph, s: float) -> Array:
-        return found[morph].at(s)
-
-    run = Run.of(document, layer, morph_of)
-    return run.motion(run.index(frame), frame, seen)
+    return Carriers(document, frames_of)
 
 
 def turn_of(document: Document, layer: Layer, index: int, morph_of: MorphOf) -> float | None:
@@ -181,19 +173,9 @@ def turn_of(document: Document, layer: Layer, index: int, morph_of: MorphOf) -> 
     morph = morph_of(span_of(layer, index))
     if morph is None or layer.carrier is None:
         return None if morph is None else morph.angle
-    from core.morph.hanging.run import Run
+    from core.morph.hanging.carriers import Carriers
 
-    return Run.of(document, layer, morph_of).turn(index)
-
-
-def picture_at(document: Document, frame: float, frames_of: FramesOf[F]) -> Picture:
-    """Return the visible layers at a frame."""
-    shapes = tuple(
-        Shape(layer.id, layer.name, layer.style, layer_rings(document, layer, frame, frames_of))
-        for layer in document.layers
-        if layer.visible
-    )
-    return Picture(frame, document.size, document.background, shapes)
+    return Carriers(document, morph_of).run(layer).turn(index)
 
 
 def keyframe_at(
@@ -206,7 +188,7 @@ def keyframe_at(
     is carried. Beside it comes how the shape turns on the way there from now on.
     """
     index, s, morph = _shown(layer, frame, morph_of)
-    turning, moved = layer.keyframes[index].turning, carried(document, layer, frame, morph_of)
+    turning, moved = layer.keyframes[index].turning, carrying(document, morph_of)(layer, frame)
     if morph is None:
         key = _nearest_key(layer, index, s)
         outline = key.outline.transformed(moved.matrix, moved.offset)
@@ -220,6 +202,16 @@ def keyframe_at(
     angle = turn_of(document, layer, index, morph_of)
     before, after = turning.split(morph.angle if angle is None else angle, s)
     return Keyframe(frame, outline, marks, turning=after), before
+
+
+def _rings(layer: Layer, frame: float, frames_of: FramesOf[F], carry: Carry) -> tuple[Array, ...]:
+    index, s, frames = _shown(layer, frame, frames_of)
+    if frames is None:
+        rings = tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
+    else:
+        positions = frames.at(s)
+        rings = tuple(positions[ring] for ring in frames.rings)
+    return tuple(map(carry(layer, frame), rings))
 
 
 def _shown(layer: Layer, frame: float, frames_of: FramesOf[F]) -> tuple[int, float, F | None]:

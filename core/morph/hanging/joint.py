@@ -19,6 +19,7 @@ from core.morph.hanging.rigid import RigidMotion
 from core.morph.hanging.seen import Seen, as_solved
 from core.morph.hanging.track import Track
 from core.morph.morph import Morph
+from core.morph.motion.passing import bumps
 
 if TYPE_CHECKING:
     from core.morph.hanging.run import Run, Stretch
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 MOST_POINTS = 200
 LEAST_POINTS = 8
 """What lies nearest to the carrier is joined to it, if less lies on it."""
+NO_TIME = 1e-4
+"""Part of a span in which nothing turns unevenly."""
 CLOSE = 0.01
 """Gap that counts as none, as a fraction of the layer's size."""
 
@@ -82,6 +85,7 @@ class MovingJoint:
         self._weights = 1 / (1 + apart) ** 2
         self._weights /= self._weights.sum()
         self._seen = self._seen_turn(self._carrier_turned(last, end))
+        self._rates = self._extra_rates()
 
     @property
     def angle(self) -> float:
@@ -107,11 +111,33 @@ class MovingJoint:
         arm = turn * np.exp(-1j * s * whole) * (joint - centre)
         return RigidMotion(turn, goal - arm - turn * centre)
 
+    def rate(self, end: int) -> complex:
+        """Return the velocity of the layer's centre by this at an end, 0 or 1, per frame."""
+        stretch = self._stretch
+        step = NO_TIME * (stretch.last - stretch.first) * (1 - 2 * end)
+        x = self._morph.at(end)
+        return self((stretch.first, stretch.last)[end] + step).displacement(x.mean(axis=0)) / step
+
     def _turned(self, frame: float, places: Array) -> float:
         if self._morph.inbetween.course is None:
             return 0.0
-        own = self._stretch.progress(frame) * (self.angle - self._morph.angle)
-        return self._carrier_turned(frame, places) + own
+        s = self._stretch.progress(frame)
+        own = s * (self.angle - self._morph.angle)
+        smoothed = sum(bump * rate for bump, rate in zip(bumps(s), self._rates, strict=True))
+        return self._carrier_turned(frame, places) + own - smoothed
+
+    def _extra_rates(self) -> tuple[float, float]:
+        """Return how fast this turns the span, per unit s, at ends that the motion passes through.
+
+        There it must not: the span's own motion has the velocity that it shares with the next.
+        """
+        self._rates = 0.0, 0.0
+        first, last = self._stretch.first, self._stretch.last
+        step = NO_TIME * (last - first)
+        start, end = (self.turned(frame) for frame in (first + step, last - step))
+        rates = start / NO_TIME, (self.turned(last) - end) / NO_TIME
+        before, after = self._stretch.passes
+        return rates[0] * before, rates[1] * after
 
     def _carrier_turned(self, frame: float, places: Array) -> float:
         """Return how far the carrier has turned where it has its part of the joint."""

@@ -29,6 +29,10 @@ class RigidMotion:
         """Move points (k, 2)."""
         return points if self == STILL else points @ self.matrix.T + self.offset
 
+    def displacement(self, point: Array) -> complex:
+        """Return by how much a point (2,) is moved."""
+        return complex(*(self(point) - point))
+
     @property
     def matrix(self) -> Array:
         """(2, 2)"""

@@ -5,17 +5,16 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import inf
 
 from core.geometry.flatten import flatten
-from core.model import Document, Easing, Layer, Outline
+from core.model import Easing, Outline
 from core.model.easing import HOLD
 from core.model.outline import Array
 from core.morph.hanging.joint import Joint, MovingJoint, StillJoint
 from core.morph.hanging.rigid import STILL, RigidMotion
 from core.morph.hanging.seen import Seen, as_solved
 from core.morph.morph import Morph
-from core.morph.scene import MorphOf, span_of
+from core.morph.motion.passing import bumps
 
 KEPT = 128
 """How many joints are remembered."""
@@ -34,6 +33,8 @@ class Stretch:
     easing: Easing = HOLD
     morph: Morph | None = None
     """None where nothing moves, or while nothing is solved."""
+    passes: tuple[bool, bool] = (False, False)
+    """Whether the motion passes through its ends, and is not stopped there by a carrier's."""
 
     def progress(self, frame: float) -> float:
         """Return s at a frame, taken to lie in the stretch."""
@@ -53,20 +54,10 @@ class Run:
     stretches: tuple[Stretch, ...]
     carrier: Run | None = None
 
-    @classmethod
-    def of(cls, document: Document, layer: Layer, morph_of: MorphOf) -> Run:
-        """Look up all that has been solved of a layer, and of those that carry it."""
-        keys, spans = layer.keyframes, range(layer.spans)
-        stretches = [Stretch(-inf, keys[0].frame, keys[0].outline, keys[0].frame)]
-        for span, key, later in zip(spans, keys, keys[1:], strict=False):
-            easing = layer.easing_of(span)
-            morph = None if easing.hold else morph_of(span_of(layer, span))
-            stretches.append(Stretch(key.frame, later.frame, key.outline, key.frame, easing, morph))
-        stretches.append(Stretch(keys[-1].frame, inf, keys[-1].outline, keys[-1].frame))
-        carrier = None
-        if layer.carrier is not None:
-            carrier = cls.of(document, document.layer(layer.carrier), morph_of)
-        return cls(tuple(stretches), carrier)
+    def smooth(self, frame: float) -> bool:
+        """Return whether the motion neither starts nor ends anew at a frame."""
+        carried = self.carrier is None or self.carrier.smooth(frame)
+        return carried and all(s.passes[0] for s in self.stretches if s.first == frame)
 
     def index(self, frame: float) -> int:
         """Return the stretch that a frame is in; a key begins one."""
@@ -78,9 +69,12 @@ class Run:
 
     def joint(self, index: int) -> Joint | None:
         """Return how a stretch is joined to the carrier, if there is one."""
-        stretch = self.stretches[index]
-        unsolved = stretch.morph is None and not stretch.easing.hold
-        return None if self.carrier is None or unsolved else _joint(stretch, self.carrier)
+        if index not in self._joints:
+            stretch = self.stretches[index]
+            unsolved = stretch.morph is None and not stretch.easing.hold
+            joint = None if self.carrier is None or unsolved else _joint(stretch, self.carrier)
+            self._joints[index] = joint
+        return self._joints[index]
 
     def turn(self, span: int) -> float | None:
         """Return how far a span turns, as seen from the carrier."""
@@ -91,7 +85,23 @@ class Run:
         """Return how the carrier moves what is in a stretch at a frame."""
         drawn = self.carrier is None or self.stretches[index].as_drawn(frame)
         joint = None if drawn else self.joint(index)
-        return STILL if joint is None else joint(frame, seen)
+        if joint is None:
+            return STILL
+        motion = joint(frame, seen)
+        return RigidMotion(motion.turn, motion.shift + self._smoothing(index, frame))
+
+    def _smoothing(self, index: int, frame: float) -> complex:
+        """Return what moves a span besides, so that joints on both sides of a key that the motion
+        passes through have one velocity there: that between theirs.
+        """
+        stretch, shift = self.stretches[index], 0j
+        for end, bump in enumerate(bumps(stretch.progress(frame))):
+            if stretch.passes[end]:
+                joint, other = self.joint(index), self.joint(index - 1 + 2 * end)
+                if isinstance(joint, MovingJoint) and isinstance(other, MovingJoint):
+                    apart = other.rate(1 - end) - joint.rate(end)
+                    shift += bump * (stretch.last - stretch.first) * apart / 2
+        return shift
 
     def turned(self, index: int, frame: float) -> float:
         """Return the angle of that motion, whole turns included."""
@@ -108,6 +118,11 @@ class Run:
             points = stretch.morph.at(stretch.progress(frame))
             rings = tuple(points[ring] for ring in stretch.morph.rings)
         return tuple(map(self.motion(index, frame), rings))
+
+    @cached_property
+    def _joints(self) -> dict[int, Joint | None]:
+        """Those that were looked up: comparing all that they depend on takes a while."""
+        return {}
 
     @cached_property
     def _firsts(self) -> list[float]:

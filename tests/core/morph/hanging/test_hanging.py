@@ -13,7 +13,7 @@ from core.model import Document, Easing, Keyframe, Layer, Outline, RingPoint, Tu
 from core.model.easing import EASE_IN_OUT, HOLD
 from core.model.edits import insert_keyframe
 from core.model.turning import AS_DRAWN
-from core.morph.scene import Span, carried, keyframe_at, layer_rings, solve_span, span_of
+from core.morph.scene import Span, carrying, keyframe_at, layer_rings, solve_span, span_of
 from tests.core.shapes import Array, letter_l, limb, rotation
 
 solved = cache(solve_span)
@@ -52,7 +52,7 @@ def shown(document: Document, number: int, frame: float) -> Array:
         [ring] = layer_rings(document, layer, frame, solved)
         return ring
     _, s = layer.progress_at(frame)
-    return carried(document, layer, frame, solved)(solved(span_of(layer, 0)).at(s))
+    return carrying(document, solved)(layer, frame)(solved(span_of(layer, 0)).at(s))
 
 
 def pose_of(document: Document, number: int, frame: float) -> Pose:
@@ -215,7 +215,7 @@ def test_a_key_inserted_where_a_layer_is_carried_is_what_shows_there(frame):
     for f, pose in poses:
         morph = solved(span_of(after.layer(2), 0))
         _, s = after.layer(2).progress_at(f)
-        found = carried(after, after.layer(2), f, solved)(morph.at(s))
+        found = carrying(after, solved)(after.layer(2), f)(morph.at(s))
         assert found == pytest.approx(placed(morph.rest, pose), abs=1e-6)
 
 
@@ -229,3 +229,55 @@ def test_nothing_is_carried_where_nothing_is_solved():
     for frame, key in ((5, 0), (20, 1)):
         [ring] = layer_rings(document, document.layer(2), frame, unsolved)
         assert np.array_equal(ring, keys[key][1])
+
+
+def waving(passes: tuple[bool, bool]) -> Document:
+    """A limb that bends and swings, and a finger on it that wags; each passes its keys, or not."""
+    frames = 1, 9, 13, 25
+    limbs = [limb(bend) + np.array([i, i * i]) for i, bend in enumerate((0.2, 1.0, 1.9, 0.5))]
+    fingers = []
+    for bend, x in zip((0.3, -0.8, 0.2, 0.9), limbs, strict=True):
+        tip = (x[14:16] + x[16:18][::-1]) / 2
+        along = complex(*(tip[1] - tip[0]))
+        fingers.append(limb(bend, 6, 3.0, 0.5) @ rotation(np.angle(along)).T + tip[0])
+    layers = []
+    for number, points, passing in zip((1, 2), (limbs, fingers), passes, strict=True):
+        keys = list(zip(frames, points, strict=True))
+        drawn = layer(number, keys, 1 if number == 2 else None, passes=passing)
+        layers.append(drawn)
+    return Document(tuple(layers))
+
+
+def jolt(document: Document, number: int, key: int) -> float:
+    """Return the change of velocity of a layer's points at a key, relative to their speed."""
+    drawn, step = document.layer(number), 1e-5
+    frame, velocities = drawn.keyframes[key].frame, []
+    before, after = (solved(span_of(drawn, span)) for span in (key - 1, key))
+    for morph, end, moment in ((before, 1, frame - step), (after, 0, frame + step)):
+        _, s = drawn.progress_at(moment)
+        x = carrying(document, solved)(drawn, moment)(morph.at(s))
+        velocities.append((x - morph.at(end)) / (moment - frame))
+    ring = np.concatenate(after.rings)
+    there = Located.on(before.target, before.triangles, after.rest[ring])
+    gap = there.interpolate(velocities[0]) - velocities[1][ring]
+    return float(np.hypot(*gap.T).max() / np.hypot(*velocities[1].T).max())
+
+
+@pytest.mark.parametrize("key", [1, 2])
+def test_what_passes_through_a_key_with_its_carrier_does_so_without_a_jolt(key):
+    assert jolt(waving((True, True)), 2, key) < 0.01
+    assert jolt(waving((True, False)), 2, key) > 0.1
+
+
+def test_what_passes_through_a_key_stays_joined_where_its_carrier_does_not_pass():
+    document = waving((False, True))
+    for frame in (5, 11, 19):
+        places = []
+        for drawn in document.layers:
+            span, s = drawn.progress_at(frame)
+            morph = solved(span_of(drawn, span))
+            root = document.layer(2).keyframes[span].outline.rings[0].points[[0, -1]].mean(axis=0)
+            there = Located.on(morph.rest, morph.triangles, root[None])
+            moved = carrying(document, solved)(drawn, frame)(morph.at(s))
+            places.append(there.interpolate(moved)[0])
+        assert np.hypot(*(places[0] - places[1])) < 0.1

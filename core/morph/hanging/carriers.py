@@ -1,0 +1,68 @@
+"""Where the layers of a document are carried."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import inf
+from typing import Generic
+
+from core.model import Document, Layer
+from core.model.outline import Array
+from core.morph.hanging.rigid import STILL, RigidMotion
+from core.morph.hanging.run import Run, Stretch
+from core.morph.morph import Morph
+from core.morph.scene import F, FramesOf, Span, span_of
+
+
+class Carriers(Generic[F]):
+    """Looks at a document once: what was found for one layer is kept for the others."""
+
+    def __init__(self, document: Document, frames_of: FramesOf[F]) -> None:
+        self._document, self._frames_of = document, frames_of
+        self._runs: dict[int, Run] = {}
+        self._frames: dict[Morph, F] = {}
+        self._last: dict[Morph, tuple[float, Array]] = {}
+
+    def __call__(self, layer: Layer, frame: float) -> RigidMotion:
+        """Return what moves a layer's own frame to where it is carried."""
+        if layer.carrier is None:
+            return STILL
+        run = self.run(layer)
+        return run.motion(run.index(frame), frame, self._seen)
+
+    def run(self, layer: Layer) -> Run:
+        """Return a layer through all time, as far as it is solved."""
+        if layer.id not in self._runs:
+            self._runs[layer.id] = self._run(layer)
+        return self._runs[layer.id]
+
+    def _run(self, layer: Layer) -> Run:
+        keys = layer.keyframes
+        carrier = None
+        if layer.carrier is not None:
+            carrier = self.run(self._document.layer(layer.carrier))
+        passes = [
+            layer.passes(index) and (carrier is None or carrier.smooth(key.frame))
+            for index, key in enumerate(keys)
+        ]
+        stretches = [Stretch(-inf, keys[0].frame, keys[0].outline, keys[0].frame)]
+        for span, (key, later) in enumerate(pairwise(keys)):
+            easing, ends = layer.easing_of(span), (passes[span], passes[span + 1])
+            morph = None if easing.hold else self._morph_of(span_of(layer, span))
+            stretches.append(
+                Stretch(key.frame, later.frame, key.outline, key.frame, easing, morph, ends)
+            )
+        stretches.append(Stretch(keys[-1].frame, inf, keys[-1].outline, keys[-1].frame))
+        return Run(tuple(stretches), carrier)
+
+    def _morph_of(self, span: Span) -> Morph | None:
+        frames = self._frames_of(span)
+        if frames is None:
+            return None
+        self._frames[frames.morph] = frames
+        return frames.morph
+
+    def _seen(self, morph: Morph, s: float) -> Array:
+        if morph not in self._last or self._last[morph][0] != s:
+            self._last[morph] = s, self._frames[morph].at(s)
+        return self._last[morph][1]
