@@ -25,19 +25,20 @@ class IdealGradients:
         self,
         F: Array,
         triangles: Indices,
-        areas: Array,
+        weights: Array,
         stretch: Callable[[Array, Complex], Stretch],
     ) -> None:
-        """Prepare for deformation gradients F (m, 2, 2) of triangles (m, 3) with rest areas (m,).
+        """Prepare for deformation gradients F (m, 2, 2) of triangles (m, 3).
 
-        ``stretch`` makes S(t) from the turn and the mirror of S.
+        ``weights`` (m,) are how much triangles count for the mean rotation. ``stretch`` makes S(t)
+        from the turn and the mirror of S.
         """
         turn, mirror = turn_and_mirror(F)
         theta = np.angle(turn)
         pairs = adjacent_triangles(triangles)
-        self.theta = unwrap(theta, pairs, areas) if len(pairs) else theta
+        self.theta = unwrap(theta, pairs, weights) if len(pairs) else theta
         """(m,) rotation of each triangle."""
-        self.turn = float(np.average(self.theta, weights=areas))
+        self.turn = float(np.average(self.theta, weights=weights))
         """The mean rotation, in [-π, π)."""
         self._stretch = stretch(np.abs(turn), mirror * np.exp(-1j * theta))
 

@@ -58,7 +58,7 @@ class Rigid:
         before, after = Elements.of(rest, triangles), Elements.of(target, triangles)
         F = before.deformation_gradients(target)
         weights = _symmetric_weights(before, after, F)
-        even = IdealGradients(F, triangles, before.areas, LogStretch)
+        even = IdealGradients(F, triangles, _shares(before) + _shares(after), LogStretch)
         self.turn, self.theta = even.turn, even.theta
         self.exponent = Exponent.of(F, even.theta)
         self.ideal: Ideal = even if rates is BY_ITSELF else PassingGradients(self.exponent, *rates)
@@ -76,6 +76,11 @@ class Rigid:
     def plain(self, t: float) -> Array | None:
         """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
         return self._frames.plain(t)
+
+
+def _shares(elements: Elements) -> Array:
+    """Return each triangle's share (m,) of the area."""
+    return elements.areas / elements.areas.sum()
 
 
 def _around_vertices(values: Array, elements: Elements) -> Array:

@@ -58,6 +58,11 @@ class Anchor:
         """(n,) what the frame departs from its fit, seen from the turning shape."""
         return np.conj(self.turned) * (self.frame - self.wanted.fitted)
 
+    @property
+    def strain(self) -> float:
+        """How far the frame departs from its fit in all."""
+        return float(np.linalg.norm(self.departure))
+
 
 Ends = tuple[Anchor, Anchor]
 
@@ -93,7 +98,7 @@ class SoundFrames:
         self._ideal, self._turning, self._fit = ideal, turning, fit
         self._hold, self._watch = Hold(fit, guard, contact), watch
         self._between: dict[Ends, Stretch | None] = {}
-        anchors = self._walk()
+        anchors = self._survey()
         self._lay(anchors)
         for _ in range(LEVELS):
             if not (more := self._missing(anchors)):
@@ -132,23 +137,33 @@ class SoundFrames:
     def _settled(self, t: float, wanted: Wanted, stretch: Stretch) -> Complex:
         start = wanted.fitted
         if not stretch.hold.sound(start, wanted):
-            nearest = min(stretch.anchors, key=lambda anchor: abs(anchor.t - t))
+            nearest = min(stretch.anchors, key=lambda anchor: (abs(anchor.t - t), anchor.strain))
             start = aligned(nearest.frame, start)
         return stretch.hold(wanted, start, stretch.pairs)
 
     # -- the survey ----------------------------------------------------------------------------
 
-    def _walk(self) -> list[Anchor]:
-        """Return anchors from end to end, each settled from the one before where it is held."""
+    def _survey(self) -> list[Anchor]:
+        """Return anchors, settled from both ends towards the middle.
+
+        So the swapped motion goes the same way back.
+        """
         plain = [self._plain_anchor(float(t)) for t in np.linspace(0, 1, SURVEY + 1)]
-        anchors, clear = plain[:1], True
-        for before, anchor in pairwise(plain[:-1]):
+        half = SURVEY // 2
+        first, last = self._walk(plain[: half + 1]), self._walk(plain[: half - 1 : -1])
+        middle = min(first.pop(), last.pop(), key=lambda anchor: anchor.strain)
+        return [*first, middle, *reversed(last)]
+
+    def _walk(self, plain: Sequence[Anchor]) -> list[Anchor]:
+        """Return anchors, each settled from those before where it must be held."""
+        anchors, clear = [plain[0]], True
+        for last, anchor in pairwise(plain):
             self._watch("in-between")
-            stretch = self._stretch((before, anchor))
+            stretch = self._stretch((last, anchor) if last.t < anchor.t else (anchor, last))
             pairs = stretch.pairs if clear and stretch is not None else None
             clear = (clear and stretch is None) or self._hold.free(anchor.wanted, pairs)
             anchors.append(anchor if clear else self._walked(anchors[-2:], anchor))
-        return [*anchors, plain[-1]]
+        return anchors
 
     def _plain_anchor(self, t: float) -> Anchor:
         ideal = self._ideal(t)
@@ -160,7 +175,7 @@ class SoundFrames:
         wanted, latest = plain.wanted, last[-1]
         start = wanted.fitted + plain.turned * _carried_on(last, plain.t)
         if not self._hold.sound(start, wanted):
-            if plain.t - latest.t > SHORTEST_STEP:
+            if abs(plain.t - latest.t) > SHORTEST_STEP:
                 halfway = self._plain_anchor((latest.t + plain.t) / 2)
                 return self._walked([latest, self._walked(last, halfway)], plain)
             start = aligned(latest.frame, wanted.fitted)
@@ -204,6 +219,8 @@ class SoundFrames:
 
 def _carried_on(last: Sequence[Anchor], t: float) -> Complex:
     """Return what departures lead to at t if they go on as they did."""
-    first, latest = last[0], last[-1]
-    rate = (latest.departure - first.departure) / max(latest.t - first.t, 1e-9)
-    return latest.departure + (t - latest.t) * rate
+    *earlier, latest = last
+    departure = latest.departure
+    for one in earlier:
+        departure += (t - latest.t) / (latest.t - one.t) * (latest.departure - one.departure)
+    return departure
