@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from core.geometry.flatten import flatten
+from core.geometry.location import Located
 from core.io import project
 from core.model import Document, Layer
 from core.morph.morph import Morph
 from core.morph.quality import crosses_itself
-from core.morph.scene import Span, layer_rings, picture_at, solve_span, span_of
+from core.morph.scene import Span, carrying, layer_rings, picture_at, solve_span, span_of
 from resources import sample, samples
 
 EVERY = [path.stem for path in samples()]
@@ -127,3 +128,21 @@ def test_the_key_turns_further_than_straight_paths_can_follow():
     dot = np.sum(source * target)
     cross = np.sum(source[:, 0] * target[:, 1] - source[:, 1] * target[:, 0])
     assert abs(np.degrees(np.arctan2(cross, dot))) > 120
+
+
+@pytest.mark.parametrize("part", ["eye", "nose", "cheek", "tail tip"])
+def test_what_hangs_on_the_fox_drifts_no_further_from_it_than_it_is_drawn(part):
+    document = document_of("running-fox")
+    layer = next(layer for layer in document.layers if layer.name == part)
+    fox = document.layer(layer.carrier)
+    for index in range(layer.spans):
+        morphs = [solved(span_of(some, index)) for some in (layer, fox)]
+        middle = morphs[0].rest.mean(axis=0)[None]
+        there = [Located.on(morph.rest, morph.triangles, middle) for morph in morphs]
+        drawn = there[0].interpolate(morphs[0].target) - there[1].interpolate(morphs[1].target)
+        for frame in range(layer.keyframes[index].frame, layer.keyframes[index + 1].frame):
+            s = layer.progress_at(frame)[1]
+            moved = carrying(document, solved)(layer, frame)
+            own, on_fox = (there[i].interpolate(morphs[i].at(s)) for i in (0, 1))
+            drift = moved(own) - on_fox - s * drawn
+            assert np.hypot(*drift[0]) < 0.3, frame
