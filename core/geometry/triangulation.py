@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from shapely import Polygon
 
 from core.errors import SolveError
-from core.geometry.polyline import cross
+from core.geometry.orientation import orientations
 from core.model.outline import Array
 
 Indices = NDArray[np.int64]
@@ -226,8 +226,6 @@ def _distance(points: Points, i: Indices, j: Indices) -> Array:
 
 
 def _oriented(points: Array, triangles: Indices) -> Indices:
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    area = cross(b - a, c - a)
-    flipped = area < 0
-    triangles[flipped] = triangles[flipped][:, [0, 2, 1]]
-    return triangles[area != 0]
+    sign = orientations(points, triangles)
+    triangles[sign < 0] = triangles[sign < 0][:, [0, 2, 1]]
+    return triangles[sign != 0]

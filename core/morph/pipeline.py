@@ -16,6 +16,7 @@ from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
+from core.morph.certificate import Certificate
 from core.morph.correspondence import correspondences, place_marks, unplace_marks
 from core.morph.mapping import Map
 from core.morph.morph import Morph
@@ -68,8 +69,7 @@ def solve_outlines(
     report = Report(
         vertices=len(rest),
         triangles=len(mesh.triangles),
-        folds_source=tuple(folds(rest, mesh.triangles).tolist()),
-        folds_target=tuple(folds(goal, mesh.triangles).tolist()),
+        certificate=Certificate.of(mesh.triangles, mesh.rings, rest, goal),
         distortion_mean=found.mean,
         distortion_worst=float(found.distortion.max()),
         smallest_angle=min(smallest_angle(p, mesh.triangles) for p in (mesh.points, found.target)),

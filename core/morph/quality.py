@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from shapely import Polygon
 
-from core.fem.elements import Elements, determinants
+from core.fem.elements import Elements
 from core.fem.energies import SymmetricDirichlet
+from core.geometry.orientation import orientations
 from core.geometry.polyline import cross
 from core.geometry.rotation import signed_singular_values
 from core.geometry.triangulation import Indices
@@ -22,15 +23,16 @@ def doubled_areas(points: Array, triangles: Indices) -> Array:
 
 
 def folds(points: Array, triangles: Indices) -> Indices:
-    """Return the indices of triangles without positive area."""
-    return np.flatnonzero(~(doubled_areas(points, triangles) > 0))  # NaN is no area either
+    """Return the indices of triangles without positive area, exactly."""
+    return np.flatnonzero(orientations(points, triangles) <= 0)
 
 
 def distortion(elements: Elements, x: Array) -> Array:
     """Return (m,) symmetric Dirichlet density of each triangle: 1 for an isometry, ∞ if folded."""
-    F = elements.deformation_gradients(x)
-    s1, s2 = signed_singular_values(F)
-    return np.where(determinants(F) > 0, SymmetricDirichlet().value(s1, s2), np.inf)
+    s1, s2 = signed_singular_values(elements.deformation_gradients(x))
+    spread = SymmetricDirichlet().value(s1, s2)
+    spread[folds(x, elements.triangles)] = np.inf
+    return spread
 
 
 def smallest_angle(points: Array, triangles: Indices) -> float:

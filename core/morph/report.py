@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from core.errors import Repair
 from core.model import RingPoint
+from core.morph.certificate import Certificate
 
 
 @dataclass(frozen=True)
@@ -38,10 +39,8 @@ class Report:
 
     vertices: int
     triangles: int
-    folds_source: tuple[int, ...]
-    """Triangles with no positive area at rest; empty unless the mesh is broken."""
-    folds_target: tuple[int, ...]
-    """Triangles with J ≤ 0 in the target."""
+    certificate: Certificate
+    """Whether the map is one to one, and where it folds if it is not."""
     distortion_mean: float
     """Area-weighted mean of (‖F‖² + ‖F⁻¹‖²) / 4 at unit areas: 1 is an isometry, ∞ a fold."""
     distortion_worst: float
@@ -61,6 +60,16 @@ class Report:
     """The marks that were used where none were given: a place on the source, one on the target, and
     in [0, 1] how sure it is that they belong together.
     """
+
+    @property
+    def folds_source(self) -> tuple[int, ...]:
+        """Triangles with no positive area at rest; empty unless the mesh is broken."""
+        return self.certificate.folds[0]
+
+    @property
+    def folds_target(self) -> tuple[int, ...]:
+        """Triangles with J ≤ 0 in the target."""
+        return self.certificate.folds[1]
 
     @property
     def seconds(self) -> float:

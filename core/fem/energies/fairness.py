@@ -12,10 +12,11 @@ from core.model.outline import Array
 
 @dataclass(frozen=True)
 class Fairness:
-    """ψ = w · max(0, 1/q − 1/q₀)², where q = 2 σ₁ σ₂ / (σ₁² + σ₂²) is 1 for a similarity.
+    """ψ = w (√(1 + e²) − 1), e = max(0, 1/q − 1/q₀), q = 2 σ₁ σ₂ / (σ₁² + σ₂²).
 
     Over an equilateral rest shape q is the quality of the triangle, whatever its size. Nothing is
-    asked of triangles with the quality q₀; a flat one costs infinitely much.
+    asked of triangles with the quality q₀; a flat one costs infinitely much. Far from q₀ the cost
+    grows no faster than 1/q: where no fair angle can be had, other aims count for more.
     """
 
     enough: float
@@ -26,22 +27,22 @@ class Fairness:
     def value(self, s1: Array, s2: Array) -> Array:
         """Return ψ (m,); infinite where J ≤ 0."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            psi = self.weight * self._excess(s1, s2) ** 2
+            psi = self.weight * (np.hypot(1, self._excess(s1, s2)) - 1)
         return np.where(s2 > 0, psi, np.inf)
 
     def derivatives(self, s1: Array, s2: Array) -> Derivatives:
         """Return the derivatives of ψ."""
         excess = self._excess(s1, s2)
-        poor = excess > 0
-        d1, d2 = (1 / s2 - s2 / s1**2) / 2, (1 / s1 - s1 / s2**2) / 2
+        root = np.hypot(1, excess)
+        slope, bend = self.weight * excess / root, self.weight * (excess > 0) / root**3
+        d1, d2 = (1 / s2 - s2 / s1**2) / 2, (1 / s1 - s1 / s2**2) / 2  # of 1/q
         mixed = -(s1**-2.0 + s2**-2.0) / 2
-        w = 2 * self.weight
         return Derivatives(
-            d1=w * excess * d1,
-            d2=w * excess * d2,
-            d11=w * (poor * d1 * d1 + excess * s2 / s1**3),
-            d12=w * (poor * d1 * d2 + excess * mixed),
-            d22=w * (poor * d2 * d2 + excess * s1 / s2**3),
+            d1=slope * d1,
+            d2=slope * d2,
+            d11=bend * d1 * d1 + slope * s2 / s1**3,
+            d12=bend * d1 * d2 + slope * mixed,
+            d22=bend * d2 * d2 + slope * s1 / s2**3,
         )
 
     def _excess(self, s1: Array, s2: Array) -> Array:

@@ -26,7 +26,7 @@ from core.progress import Watch, unwatched
 
 ENOUGH = 0.36
 """Quality at which a triangle asks for no more: somewhat above what is fair."""
-FAIRNESS = Fairness(ENOUGH, weight=10.0)
+FAIRNESS = Fairness(ENOUGH, weight=20.0)
 TURNS, STEPS = 2, 4
 """How often each end moves, and by how many of Newton's steps."""
 CONVERGED = 1e-4

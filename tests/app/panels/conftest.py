@@ -12,6 +12,7 @@ from app.workspace import Workspace
 from core.errors import SolveError
 from core.model import Document, Keyframe, Layer, Outline, RingPoint, Style
 from core.model.easing import EASE_IN
+from core.morph.certificate import Certificate
 from core.morph.report import Report, Stage
 from core.morph.scene import Span
 from core.progress import Progress
@@ -30,8 +31,7 @@ class Solution:
 REPORT = Report(
     vertices=1234,
     triangles=2345,
-    folds_source=(),
-    folds_target=(7, 8),
+    certificate=Certificate(folds=((), (7, 8)), simple=(True, True), bordered=True),
     distortion_mean=1.0625,
     distortion_worst=float("inf"),
     smallest_angle=0.3,
