@@ -93,12 +93,14 @@ class LayerTable(QAbstractTableModel):
         if role == Role.SizeHintRole:
             return QSize(TARGET_SIZE, TARGET_SIZE)
         if index.column() == NAME:
-            if role in (Role.DisplayRole, Role.EditRole):
+            if role == Role.EditRole:
                 return layer.name
+            if role == Role.DisplayRole:
+                return self._title(layer)
             if role == Role.DecorationRole:
                 return _swatch(layer.style.fill, colours().disabled)
             if role == Role.ToolTipRole:
-                return self._about(layer)
+                return self.tr("{}\nDouble click to rename, drag to reorder").format(layer.name)
             return None
         name, text = self._toggle_of(layer, index.column())
         if role == Role.DecorationRole:
@@ -106,12 +108,12 @@ class LayerTable(QAbstractTableModel):
             return _icon(name, c.text if layer.visible else c.muted, c.on_accent)
         return text if role in (Role.ToolTipRole, Role.AccessibleTextRole) else None
 
-    def _about(self, layer: Layer) -> str:
-        """Return a layer's name, what it hangs on, and what can be done with it."""
-        carriers = self._session.document.carriers(layer)[:1]
-        hangs = [self.tr("Hangs on {}").format(carrier.name) for carrier in carriers]
-        hint = self.tr("Double click to rename, drag to reorder")
-        return "\n".join([layer.name, *hangs, hint])
+    def _title(self, layer: Layer) -> str:
+        """Return a layer's name, and what it hangs on."""
+        carriers = self._session.document.carriers(layer)
+        if not carriers:
+            return layer.name
+        return self.tr("{name} · on {carrier}").format(name=layer.name, carrier=carriers[0].name)
 
     def setData(self, index: Index, value: Any, role: int = Role.EditRole) -> bool:
         """Rename a layer; an empty name is not taken."""

@@ -269,9 +269,18 @@ def delete_nodes(
 def transform_outline(
     document: Document, layer_id: int, key: int, matrix: ArrayLike, offset: ArrayLike
 ) -> Document:
-    """Apply x → M x + offset to a whole keyframe."""
-    keyframe = _keyframe(_layer(document, layer_id), key)
-    return _on_key(document, layer_id, key, outline=keyframe.outline.transformed(matrix, offset))
+    """Apply x → M x + offset to a whole keyframe, and to those at its frame that hang on it."""
+    layer = _layer(document, layer_id)
+    frame = _keyframe(layer, key).frame
+    hanging = (
+        other for other in document.layers if layer in document.carriers(other) and not other.locked
+    )
+    for some in (layer, *hanging):
+        here = some.key_at(frame)
+        if here is not None:
+            outline = some.keyframes[here].outline.transformed(matrix, offset)
+            document = _on_key(document, some.id, here, outline=outline)
+    return document
 
 
 # -- marks -------------------------------------------------------------------------------------

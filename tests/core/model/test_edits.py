@@ -249,6 +249,17 @@ def test_what_hung_on_a_layer_that_is_removed_hangs_on_nothing() -> None:
     assert edits.remove_layer(hanging(None, 1, 2), 1).layer(3).carrier == 2
 
 
+def test_a_key_that_is_moved_takes_the_keys_at_its_frame_along_that_hang_on_it() -> None:
+    document = hanging(None, 1, 2, None)
+    document = edits.insert_keyframe(document, 3, Keyframe(5, TRIANGLE))
+    after = edits.transform_outline(document, 1, 0, 2 * np.eye(2), (5.0, 0.0))
+    moved = TRIANGLE.transformed(2 * np.eye(2), (5.0, 0.0))
+    outlines = [[key.outline for key in layer.keyframes] for layer in after.layers]
+    assert outlines == [[moved], [moved], [moved, TRIANGLE], [TRIANGLE]]
+    locked = edits.update_layer(document, 2, locked=True)
+    assert edits.transform_outline(locked, 1, 0, np.eye(2), (1.0, 0.0)).layer(2) is locked.layer(2)
+
+
 def test_a_hidden_layer_that_carries_a_visible_one_moves() -> None:
     document = edits.update_layer(hanging(None, 1, 2), 1, visible=False)
     document = edits.update_layer(document, 2, visible=False)

@@ -8,6 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import core
+from core.fem.elements import Elements
+from core.geometry.rotation import turn_and_mirror
+from core.geometry.triangulation import adjacent_triangles
 from core.model import Turning
 from core.morph.motion.motion import Motion
 from core.morph.quality import folds
@@ -121,3 +124,17 @@ def test_a_limb_that_bends_stays_where_it_hangs_better_on_an_arc():
         return np.abs(np.array(frames) - morph.rest[joint].mean(axis=0)).max()
 
     assert drift("arc") < 0.1 * drift("straight")
+
+
+@pytest.mark.parametrize("turns", [0, 1])
+def test_every_triangle_turns_as_far_as_its_neighbours_let_it_without_a_fold(turns):
+    """Followed from frame to frame, each has turned by its unwrapped angle, and whole turns."""
+    morph = core.solve(limb(0.0, 24), limb(5.0, 24, curl=2.0), [(0, 0), (23, 23), (24, 24)])
+    morph = morph.along(Turning("clockwise", turns))
+    elements = Elements.of(morph.rest, morph.triangles)
+    frames = (morph.at(t) for t in np.linspace(0, 1, 65))
+    angles = [np.angle(turn_and_mirror(elements.deformation_gradients(x))[0]) for x in frames]
+    followed = np.unwrap(angles, axis=0)
+    assert followed[-1] - followed[0] == pytest.approx(morph.inbetween.angles, abs=1e-6)
+    i, j = adjacent_triangles(morph.triangles).T
+    assert np.abs(followed[:, i] - followed[:, j]).max() < np.pi
