@@ -183,8 +183,10 @@ class Reporter(QObject):
         actions: list[Action] = []
         marks = [mark for mark in error.where.marks if mark < len(layer.labels)]
         if marks:
-            text = self.tr("Delete mark {letter}").format(letter=layer.labels[marks[-1]])
-            actions.append((text, partial(self._remove_mark, layer.id, marks[-1], text)))
+            chosen = self._workspace.selection.mark  # most likely the one that was moved just now
+            mark = chosen if chosen in marks else marks[-1]
+            text = self.tr("Delete mark {letter}").format(letter=layer.labels[mark])
+            actions.append((text, partial(self._remove_mark, layer.id, mark, text)))
         if _has_place(error.where):
             actions.append((self.tr("Show place"), partial(self._show_place, error, key)))
         elif not actions and self._workspace.session.undo_stack.canUndo():

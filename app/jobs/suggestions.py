@@ -14,7 +14,7 @@ from app.document.session import Session
 from app.jobs.solver import Solver, SpanState
 from app.jobs.worker import Worker
 from app.workspace import ViewOptions
-from core.errors import Cancelled, MorphError
+from core.errors import Cancelled, MarkError, MorphError
 from core.model import Document, Keyframe, Layer, RingPoint, edits
 from core.morph.layer_match import LayerMatch, Proposed, Suggestion, match_layer
 from core.morph.scene import span_of
@@ -112,7 +112,7 @@ class Suggestions(QObject):
     def shown(self) -> tuple[Suggestion, ...]:
         """The marks suggested for the span in view; while not current, those that still fit in."""
         now, before = self._question(), self._answer and self._answer.question
-        if not self.visible or now is None or before is None:
+        if not self.visible or now is None or before is None or self._contradicted(now):
             return ()
         if now == before:
             return self._answer.suggestions
@@ -211,6 +211,11 @@ class Suggestions(QObject):
             return None
         span, _ = layer.span_at(self._playhead.frame)
         return _Question(layer.id, layer.keyframes, span, self._proposed(layer, span))
+
+    def _contradicted(self, question: _Question) -> bool:
+        """Whether the marks that are set contradict each other: more of them would not help."""
+        error = self._solver.errors.get((question.layer_id, question.span))
+        return isinstance(error, MarkError)
 
     def _proposed(self, layer: Layer, span: int) -> Proposed | None:
         key = layer.keyframes[span]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from app.canvas.moment import Role
 from core.io import project
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.model.edits import move_mark
 from core.morph.layer_match import Suggestion
 from core.morph.scene import solve_span, span_of
 from tests.app.canvas.conftest import Hand
@@ -219,6 +221,20 @@ def test_with_marks_of_the_artist_they_fill_the_gaps_only(hand: Hand, settle):
     marks = {key.marks[0] for key in hand.document.layers[0].keyframes}
     for suggestion in settle(hand):
         assert marks.isdisjoint(suggestion.places)
+
+
+def test_where_marks_contradict_each_other_no_more_are_suggested(hand: Hand, settle, qtbot: QtBot):
+    session, suggestions = hand.workspace.session, hand.workspace.suggestions
+    for corner in (0, 2, 4):
+        hand.click(SOURCE, L[corner])
+        settle(hand)
+    first, second, _ = hand.document.layers[0].keyframes[1].marks
+    session.apply("Move mark", move_mark, 1, 1, 0, replace(second, at=second.at + 0.5))
+    qtbot.waitUntil(lambda: bool(hand.workspace.solver.errors))
+    assert suggestions.shown == ()
+    session.undo()
+    assert hand.document.layers[0].keyframes[1].marks[0] == first
+    assert settle(hand)
 
 
 def test_they_follow_a_dragged_node_after_its_release_and_are_stale_until_then(

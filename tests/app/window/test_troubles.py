@@ -16,7 +16,7 @@ from app.jobs.solver import SpanState
 from app.main_window import MainWindow
 from core.errors import EditError, MarkError, Where
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
-from core.model.edits import move_nodes, update_document, update_layer
+from core.model.edits import move_mark, move_nodes, update_document, update_layer
 from core.morph.scene import span_of
 from tests.app.window.conftest import press
 
@@ -51,6 +51,17 @@ def test_marks_out_of_order_are_named_shown_and_removed_with_one_click(
     qtbot.waitUntil(lambda: window.workspace.solver.state(1, 0) is SpanState.SOLVED)
     qtbot.waitUntil(lambda: not window.messages.text)
     assert window.actions_["undo"].text().endswith(remove)
+
+
+def test_of_marks_out_of_order_the_chosen_one_is_offered_to_be_deleted(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    window.workspace.session.replace(a_document())
+    qtbot.waitUntil(lambda: window.workspace.solver.state(1, 0) is SpanState.SOLVED)
+    window.workspace.selection.select_mark(0)
+    window.workspace.session.apply("Move mark", move_mark, 1, 1, 0, RingPoint(0, 1.5))
+    qtbot.waitUntil(lambda: any(text.startswith("Delete mark") for text in mends(window)))
+    assert "Delete mark a" in mends(window)
 
 
 def test_show_place_goes_to_the_keyframe_with_the_tool_that_mends_it(
