@@ -9,11 +9,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.canvas.moment import moment_of
+from app.canvas.moment import Role, moment_of
 from app.fields.choice import Choice
 from app.main_window import MainWindow
+from app.panels.layer_table import NAME
 from core.model import Document, Keyframe, Layer, Outline, RingPoint, Style
 from core.morph.scene import picture_at
+from tests.app.canvas.conftest import Hand
 from tests.app.window.conftest import press
 from tests.core.shapes import rotation
 
@@ -121,3 +123,27 @@ def test_a_layer_is_offered_no_carrier_that_hangs_on_it(flying: MainWindow) -> N
     flying.workspace.selection.select_layer(1)
     assert [carrier.itemText(i) for i in range(carrier.count())] == ["Nothing"]
     assert not carrier.isEnabled()
+
+
+def test_a_body_that_is_dragged_takes_the_propeller_along(flying: MainWindow, hand: Hand) -> None:
+    pick(flying.properties.layer.carrier, "body")
+    flying.workspace.selection.select_layer(1)
+    press(flying, "V")
+    before = flying.workspace.session.document
+    start = np.array([250.0, 380.0])
+    hand.drag(Role.SOURCE, start, start + np.array([40, -60]))
+    after = flying.workspace.session.document
+    gone = after.layer(1).keyframes[0].outline.rings[0].points - flown(BODY, 1).rings[0].points
+    assert np.abs(gone).max() > 20
+    for layer in (1, 2):
+        drawn = before.layer(layer).keyframes[0].outline
+        assert after.layer(layer).keyframes[0].outline == drawn.transformed(np.eye(2), gone[0])
+    flying.workspace.session.undo()
+    assert flying.workspace.session.document is before
+
+
+def test_the_layers_say_what_they_hang_on(flying: MainWindow) -> None:
+    table = flying.layers.table
+    pick(flying.properties.layer.carrier, "body")
+    assert table.index(0, NAME).data() == "propeller · on body"
+    assert table.index(0, NAME).data(Qt.ItemDataRole.EditRole) == "propeller"
