@@ -17,6 +17,8 @@ from core.model.outline import Array
 ARMIJO = 1e-4
 HALVINGS = 30
 MAX_STEPS = 60
+LEFT_ALONE = 1 / 4
+"""Part of its size in frames that are to be left alone below which a gap may be felt elsewhere."""
 REGULARISATION = 1e-10
 """Added to a Hessian's diagonal where it is not definite, relative to its largest entry."""
 CONVERGED = 1e-10

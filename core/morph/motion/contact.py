@@ -14,7 +14,7 @@ from shapely import Polygon
 from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.barrier import Derivatives
+from core.morph.motion.barrier import LEFT_ALONE, Derivatives
 from core.morph.motion.guard import times_of_flatness
 
 REACH = 0.01
@@ -33,8 +33,8 @@ TINY = 1e-100
 class Contact:
     """Pairs of a boundary vertex and a boundary edge, kept apart.
 
-    A pair's reach is at most half its smallest distance in frames to be left as they are, such as
-    both ends, so that they feel none. A pair's number is the vertex's place on the boundary times
+    A pair's reach is but a part of its smallest distance in frames to be left alone, such as both
+    ends, so that they feel none. A pair's number is the vertex's place on the boundary times
     the boundary's length, plus the edge's place.
     """
 
@@ -127,7 +127,7 @@ class Contact:
 
     def _reach(self, corners: Indices) -> Array:
         least = np.min([_distances(frame[corners.T]) for frame in self._left], axis=0)
-        return np.minimum(REACH, least / 2)
+        return np.minimum(REACH, LEFT_ALONE * least)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from core.fem.elements import Elements
 from core.geometry.rotation import Complex
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.barrier import Derivatives
+from core.morph.motion.barrier import LEFT_ALONE, Derivatives
 
 REACH = 0.3
 """Fraction of a triangle's ideal area below which the guard is felt."""
@@ -27,8 +27,8 @@ AREA_BEND = np.kron([[0, 1, -1], [-1, 0, 1], [1, -1, 0]], [[0, 1], [-1, 0]]) / 2
 class FoldGuard:
     """Weighs folds against the fit: Σ w det B b(det F / (reach · det B)), the ideal being B.
 
-    It is felt only close to a fold: elsewhere frames are the plain fit's. A triangle's reach is at
-    most half its smallest margin in frames to be left as they are.
+    It is felt only close to a fold: elsewhere frames are the plain fit's. A triangle's reach is but
+    a part of its smallest margin in frames to be left alone.
     """
 
     def __init__(self, before: Elements, after: Elements) -> None:
@@ -40,7 +40,7 @@ class FoldGuard:
     def leaving(self, *margins: Array) -> Self:
         """Return the guard that is not felt in frames with some margins (m,) either."""
         other = copy(self)
-        other._reach = np.min([self._reach, *(margin / 2 for margin in margins)], axis=0)
+        other._reach = np.min([self._reach, *(LEFT_ALONE * margin for margin in margins)], axis=0)
         return other
 
     def near(self, z: Complex, ideal: Array, within: float) -> Indices:
