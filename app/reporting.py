@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from PySide6.QtCore import QObject, QTimer
 
@@ -26,13 +26,24 @@ UNSEEN = 1e-8
 """A repair that moved less than this fraction of an outline is not worth a word."""
 
 
+class _Shown(NamedTuple):
+    """The solver's error as it is on show."""
+
+    error: MorphError
+    about: str
+    here: bool
+    """Whether the canvas shows what is wrong."""
+    mark: int | None
+    """The chosen mark."""
+
+
 class Reporter(QObject):
     """Shows one trouble at a time: what was just refused, or else what cannot be solved."""
 
     def __init__(self, workspace: Workspace, canvas: Canvas, files: Files, bar: MessageBar) -> None:
         super().__init__(bar)
         self._workspace, self._canvas, self._files, self._bar = workspace, canvas, files, bar
-        self._shown: MorphError | None = None
+        self._shown: _Shown | None = None
         """The solver's error on show."""
         self._dismissed: MorphError | None = None
         self._offered: Span | None = None
@@ -48,6 +59,7 @@ class Reporter(QObject):
         workspace.session.replaced.connect(self._on_replaced)
         workspace.solver.updated.connect(self._follow_soon)
         workspace.selection.changed.connect(self._follow_soon)
+        workspace.playhead.moved.connect(self._on_playhead_moved)
         files.failed.connect(self.show_refusal)
         files.noted.connect(self.note)
         bar.closed.connect(self._on_closed)
@@ -87,6 +99,10 @@ class Reporter(QObject):
     def _on_replaced(self) -> None:
         self._told.clear()
 
+    def _on_playhead_moved(self) -> None:
+        if not self._workspace.playhead.playing:  # what plays is looked at, not worked on
+            self._follow_soon()
+
     def _follow_soon(self) -> None:
         self._soon.start()
 
@@ -98,30 +114,39 @@ class Reporter(QObject):
         error = None if key is None else self._workspace.solver.errors[key]
         if error is None and not self._tell_repairs():
             self._offer_mirror()
-        if error is self._shown:
-            return
         if error is None or key is None or error is self._dismissed:
-            self._clear()
+            if self._shown is not None:
+                self._clear()
             return
-        self._shown = error
         layer = self._workspace.session.document.layer(key[0])
         several = len(self._workspace.session.document.layers) > 1
         about = self.tr("Layer “{name}”: ").format(name=layer.name) if several else ""
+        here = self._workspace.selection.layer is layer and key[1] == self._span_in_view(layer)
+        shown = _Shown(error, about, here, self._workspace.selection.mark)
+        if shown == self._shown:
+            return
+        self._shown = shown
         self._bar.show_error(error, *self._mends(error, key, layer), about=about)
-        self._canvas.show_error(error)
+        if shown.here:
+            self._canvas.show_error(error)
+        else:
+            self._canvas.clear_error()
 
     def _most_pressing(self) -> Key | None:
         """Return the failed span of the current layer under the playhead, or else the first."""
-        current, frame = self._workspace.selection.layer, self._workspace.playhead.frame
+        current = self._workspace.selection.layer
 
         def urgency(key: Key) -> tuple[bool, bool]:
             layer = self._workspace.session.document.layer(key[0])
-            return layer is not current, layer.span_at(frame)[0] != key[1]
+            return layer is not current, self._span_in_view(layer) != key[1]
 
         return min(self._workspace.solver.errors, key=urgency, default=None)
 
+    def _span_in_view(self, layer: Layer) -> int:
+        return layer.span_at(self._workspace.playhead.frame)[0]
+
     def _on_closed(self) -> None:
-        self._dismissed = self._shown
+        self._dismissed = self._shown and self._shown.error
         self._clear()
 
     def _clear(self) -> None:
@@ -134,7 +159,7 @@ class Reporter(QObject):
         layer = self._workspace.selection.layer
         if layer is None or not layer.spans or self._workspace.session.dragging:
             return None
-        index = layer.span_at(self._workspace.playhead.frame)[0]
+        index = self._span_in_view(layer)
         morph = self._workspace.solver.solutions().get(span_of(layer, index))
         return None if morph is None else (layer, index, morph)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
@@ -170,6 +171,25 @@ def test_an_error_of_another_layer_names_it(window: MainWindow, qtbot: QtBot) ->
     still = Layer(2, "still", (Keyframe(1, SQUARE),))
     window.workspace.session.replace(Document((wrong, still)))
     qtbot.waitUntil(lambda: window.messages.text.startswith("Layer “card”: "))
+
+
+def test_the_place_of_an_error_is_shown_only_where_it_is(window: MainWindow, qtbot: QtBot) -> None:
+    """Neither on the outlines of another layer, nor on those of another span."""
+    wrong = a_document(crossed=True).layers[0]
+    wrong = replace(wrong, keyframes=(*wrong.keyframes, replace(wrong.keyframes[1], frame=49)))
+    still = Layer(2, "still", (Keyframe(1, SQUARE),))
+    session, selection = window.workspace.session, window.workspace.selection
+    session.replace(Document((wrong, still)))
+    ring = window.canvas.panes[Role.TARGET].error_ring
+    selection.select_layer(1)
+    qtbot.waitUntil(ring.isVisible)
+    window.workspace.playhead.move_to(30)
+    qtbot.waitUntil(lambda: not ring.isVisible())
+    window.workspace.playhead.move_to(12)
+    qtbot.waitUntil(ring.isVisible)
+    selection.select_layer(2)
+    qtbot.waitUntil(lambda: not ring.isVisible())
+    assert window.messages.text.startswith("Layer “card”: ")
 
 
 def test_cancel_in_the_status_bar_stops_solving_and_can_be_taken_back(
