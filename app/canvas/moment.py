@@ -44,7 +44,7 @@ class Moment:
     """(n, 2) vertices of the current layer's mesh, as they are on screen."""
     state: SpanState = SpanState.NONE
     late: bool = False
-    """Whether the current layer's in-between is not made yet, and the one next to it is seen."""
+    """Whether the current layer's in-between is still to be made, and the one nearest is seen."""
     stale: frozenset[int] = frozenset()
     """Layers whose in-between on screen is not what the document says by now."""
     trouble: Array | None = None
@@ -96,7 +96,11 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
 
 
 def _late(workspace: Workspace, layer: Layer, frame: float) -> bool:
-    """Return whether a layer's in-between is known how to make, but not made yet."""
+    """Return whether a layer's in-between, or that of what it hangs on, is still to be made."""
+    if layer.carrier is not None:
+        carrier = workspace.session.document.layer(layer.carrier)
+        if _late(workspace, carrier, frame):
+            return True
     if not layer.spans:
         return False
     index, s = layer.progress_at(frame)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.canvas.moment import Role, picture_on_screen
+from app.canvas.moment import Role, moment_of, picture_on_screen
+from core.model import Keyframe, Layer, Outline
 from core.model.edits import move_nodes
 from core.morph.morph import Morph
 from core.morph.scene import picture_at, solve_span
@@ -121,3 +123,20 @@ def test_a_frame_that_is_not_there_yet_is_said_to_be_until_it_comes(
     show(hand, 9.5)
     makers.gate.set()
     qtbot.waitUntil(up_to_date(hand))
+
+
+def test_what_hangs_on_a_frame_that_is_not_there_yet_is_not_there_either(
+    makers: Makers, open_canvas: Callable[..., Hand], qtbot: QtBot
+):
+    document = a_document(marks=False)
+    hat = Outline.polygon([(400, 100), (500, 100), (500, 150), (400, 150)])
+    hung = Layer(2, "hat", (Keyframe(1, hat),), carrier=1)
+    hand = open_canvas(replace(document, layers=(*document.layers, hung)), solve=solve_span)
+    hand.workspace.selection.select_layer(1)
+    qtbot.waitUntil(at_rest(hand), timeout=20_000)
+    makers.gate.clear()
+    show(hand, 7.5)
+    assert moment_of(hand.workspace).stale == {1, 2}
+    makers.gate.set()
+    qtbot.waitUntil(up_to_date(hand))
+    assert not moment_of(hand.workspace).stale
