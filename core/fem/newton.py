@@ -51,20 +51,16 @@ class Factor:
         return x.T
 
 
-class FreeVertices:
-    """The free vertices' linear systems: their sparsity is found once, only numbers change."""
+class ElementSystem:
+    """Linear systems of element matrices: their sparsity is found once, only numbers change."""
 
-    def __init__(self, elements: Elements, free: Indices) -> None:
-        """Prepare for the vertices ``free`` (k,) of ``elements``; all others are fixed."""
-        self.elements, self.free = elements, free
-        number = np.full(elements.vertices, -1)
-        number[free] = np.arange(len(free))
-        corners = number[elements.triangles]
-        unknown = np.where(corners[..., None] < 0, -1, 2 * corners[..., None] + [0, 1])
-        ends = unknown.reshape(-1, 6).T[np.array(PAIRS)]  # (2, 21, m)
+    def __init__(self, unknowns: Indices, size: int) -> None:
+        """Prepare for ``size`` unknowns; (6, m) says which the coordinates of elements' corners
+        are, or -1 where they are fixed.
+        """
+        ends = unknowns[np.array(PAIRS)]  # (2, 21, m)
         row, column = ends.min(axis=0).ravel(), ends.max(axis=0).ravel()
         self._used = np.flatnonzero(row >= 0)
-        size = 2 * len(free)
         keys, self._slot = np.unique(
             column[self._used] * size + row[self._used], return_inverse=True
         )
@@ -73,16 +69,32 @@ class FreeVertices:
         self._diagonal = pointer[1:] - 1
         self._factor: qdldl.Solver | None = None
 
-    def solve(self, blocks: Array, load: Array) -> Array:
-        """Sum element matrices, given as upper triangles (21, m), and solve for load (2k,)."""
+    def solve(self, blocks: Array, load: Array, held: Array | float = 0.0) -> Array:
+        """Sum element matrices, given as upper triangles (21, m), and solve for load (size,).
+
+        ``held`` is added to the diagonal.
+        """
         data = np.bincount(self._slot, weights=blocks.ravel()[self._used])
-        data[self._diagonal] += REGULARISATION * data[self._diagonal].max()
+        data[self._diagonal] += REGULARISATION * data[self._diagonal].max() + held
         self._upper.data[:] = data
         if self._factor is None:
             self._factor = qdldl.Solver(self._upper, upper=True)
         else:
             self._factor.update(self._upper, upper=True)
         return self._factor.solve(load)
+
+
+class FreeVertices(ElementSystem):
+    """The linear systems of the free vertices."""
+
+    def __init__(self, elements: Elements, free: Indices) -> None:
+        """Prepare for the vertices ``free`` (k,) of ``elements``; all others are fixed."""
+        self.elements, self.free = elements, free
+        number = np.full(elements.vertices, -1)
+        number[free] = np.arange(len(free))
+        corners = number[elements.triangles]
+        unknowns = np.where(corners[..., None] < 0, -1, 2 * corners[..., None] + [0, 1])
+        super().__init__(unknowns.reshape(-1, 6).T, 2 * len(free))
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -44,17 +45,69 @@ class ProposedMark:
 
 
 @dataclass(frozen=True, eq=False)
-class Correspondence:
-    """Which boundaries belong together."""
+class MarkedRing:
+    """A ring of both outlines with marks: those of the artist, or proposals."""
 
-    boundaries: list[BoundaryPair]
-    """Ring by ring."""
-    proposed: tuple[ProposedMark, ...]
-    """The marks that were set on the rings on which there were none."""
+    ring: MatchedRing
+    proposed: tuple[ProposedMark, ...] = ()
+    """Its marks, if the artist gave none, and …"""
+    match: RingMatch | None = None
+    """… where they are from."""
+
+    def slid(self, places: Array) -> MarkedRing:
+        """Return the ring with proposals that lead nearest to pairs of places (k, 2).
+
+        They are fractions of the perimeters from the first mark on. Marks of the artist stay.
+        """
+        if self.match is None:
+            return self
+        ring, first = self.ring, [self.ring.source_marks[0], self.ring.target_marks[0]]
+        match = self.match.along(first + places * self.match.perimeters)
+        return _proposed(ring.source, ring.target, self.proposed[0].rings, match)
+
+
+@dataclass(frozen=True, eq=False)
+class Matching:
+    """How all rings belong together, and how well."""
+
+    rings: Sequence[MarkedRing]
     misfit: float = 0.0
     """How ill the exteriors match: 0 is perfect, 1 is poor; 0 if the artist matched them."""
     mirror: bool = False
     """Whether the exterior would match the target's mirror image far better."""
+
+
+@dataclass(frozen=True, eq=False)
+class Correspondence:
+    """Which boundaries belong together."""
+
+    matching: Matching
+    boundaries: list[BoundaryPair]
+    """Ring by ring."""
+    spacing: tuple[float, float]
+    """How far apart their vertices are at most."""
+    labels: Sequence[str]
+    """Names of the marks."""
+
+    @classmethod
+    def of(cls, matching: Matching, spacing: tuple[float, float], labels: Sequence[str]) -> Self:
+        """Split the boundaries; raises ``MarkError`` where marks contradict each other."""
+        boundaries = [correspond(each.ring, spacing, labels) for each in matching.rings]
+        return cls(matching, boundaries, spacing, labels)
+
+    def slid(self, places: Sequence[Array]) -> Correspondence:
+        """Return the correspondence whose proposed marks lead nearest to pairs of places (k, 2).
+
+        They are given ring by ring, as fractions of the perimeters from the first vertex of the
+        boundary on. Marks of the artist stay. Raises ``MarkError`` where that is not possible.
+        """
+        rings = [each.slid(at) for each, at in zip(self.matching.rings, places, strict=True)]
+        return Correspondence.of(replace(self.matching, rings=rings), self.spacing, self.labels)
+
+    @property
+    def proposed(self) -> tuple[ProposedMark, ...]:
+        """The marks that were set on the rings on which there were none."""
+        return tuple(mark for each in self.matching.rings for mark in each.proposed)
 
 
 def place_marks(
@@ -124,18 +177,10 @@ def correspondences(
     exteriors' perimeters over ``density``. ``watch(stage)`` is called between steps and may raise
     ``Cancelled``.
     """
-    spacing = tuple(float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
+    spacings = [float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target)]
     for matching in _matchings(source, target, marks, watch):
         try:
-            yield Correspondence(
-                [
-                    correspond(each.ring, (spacing[0], spacing[1]), labels)
-                    for each in matching.rings
-                ],
-                tuple(mark for each in matching.rings for mark in each.proposed),
-                matching.misfit,
-                matching.mirror,
-            )
+            yield Correspondence.of(matching, (spacings[0], spacings[1]), labels)
         except MarkError:
             if any(mark.rings[0] == 0 for mark in marks):
                 raise  # otherwise it was a proposal, and there are others
@@ -143,7 +188,7 @@ def correspondences(
 
 def _matchings(
     source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark], watch: Watch
-) -> Iterator[_Matching]:
+) -> Iterator[Matching]:
     exterior = [mark for mark in marks if mark.rings == (0, 0)]
     fixed = [mark.lengths for mark in exterior]
     found: list[RingMatch] = []
@@ -152,15 +197,16 @@ def _matchings(
     proposals = [match for match in found if not match.mirrored]
     if exterior:
         ring, first = _marked(source, target, exterior), next(iter(proposals), None)
-        yield _Matching([ring, *_holes(source, target, marks, first, watch)])
+        yield Matching([ring, *_holes(source, target, marks, first, watch)])
         return
     mirror = mirror_is_better(found)
+    a, b = source.rings[0], target.rings[0]
     for match in proposals:
-        ring = _proposed(source, target, RingPair(0, 0), *match.marks())
-        yield _Matching([ring, *_holes(source, target, marks, match, watch)], match.cost, mirror)
-    ring = _shifted(source, target, RingPair(0, 0))
+        ring = _proposed(a, b, (0, 0), match)
+        yield Matching([ring, *_holes(source, target, marks, match, watch)], match.cost, mirror)
+    ring = _proposed(a, b, (0, 0), _shifted(a, b, RingPair(0, 0)))
     misfit = max((match.cost for match in proposals), default=1.0)
-    yield _Matching([ring, *_holes(source, target, marks, None, watch)], misfit, mirror)
+    yield Matching([ring, *_holes(source, target, marks, None, watch)], misfit, mirror)
 
 
 def _holes(
@@ -169,7 +215,7 @@ def _holes(
     marks: Sequence[PlacedMark],
     exterior: RingMatch | None,
     watch: Watch,
-) -> list[_Matched]:
+) -> list[MarkedRing]:
     """Match the holes, each by its marks, or else by what the exterior's match says of it."""
     known = {mark.rings[0]: mark.rings[1] for mark in marks if mark.rings[0] > 0}
     if exterior is not None:
@@ -187,62 +233,35 @@ def _holes(
         a, b = source.rings[pair.source], target.rings[pair.target]
         matches = match_rings(a, b, (), pair.rotation, watch)
         found = [match for match in matches if not match.mirrored]
-        matched.append(
-            _proposed(source, target, pair, *found[0].marks())
-            if found
-            else _shifted(source, target, pair)
-        )
+        best = found[0] if found else _shifted(a, b, pair)
+        matched.append(_proposed(a, b, (pair.source, pair.target), best))
     return matched
 
 
-@dataclass(frozen=True, eq=False)
-class _Matched:
-    ring: MatchedRing
-    proposed: tuple[ProposedMark, ...] = ()
-    """Its marks, if the artist gave none."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Matching:
-    rings: list[_Matched]
-    misfit: float = 0.0
-    mirror: bool = False
-
-
-def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]) -> _Matched:
+def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark]) -> MarkedRing:
     i, j = marks[0].rings
     here, there = np.array([mark.lengths for mark in marks]).T
     names = tuple(mark.index for mark in marks)
-    return _Matched(MatchedRing(source.rings[i], target.rings[j], here, there, names))
+    return MarkedRing(MatchedRing(source.rings[i], target.rings[j], here, there, names))
 
 
-def _proposed(
-    source: CleanOutline,
-    target: CleanOutline,
-    pair: RingPair,
-    here: Array,
-    there: Array,
-    confidence: Array,
-) -> _Matched:
+def _proposed(source: Array, target: Array, rings: tuple[int, int], match: RingMatch) -> MarkedRing:
     """Count proposed marks from the farthest out, so that the start vertex does not matter."""
-    a, b = source.rings[pair.source], target.rings[pair.target]
-    away = points_at(a, arc_lengths(a), here) - resample(a, SAMPLES).mean(axis=0)
-    first = int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(a), 9)))
+    here, there, confidence = match.marks()
+    away = points_at(source, arc_lengths(source), here) - resample(source, SAMPLES).mean(axis=0)
+    first = int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(source), 9)))
     here, there, confidence = (np.roll(v, -first) for v in (here, there, confidence))
-    rings = pair.source, pair.target
     proposed = tuple(
         ProposedMark(rings, (s, t), c)
         for s, t, c in zip(here.tolist(), there.tolist(), confidence.tolist(), strict=True)
     )
     numbers = tuple(range(len(here)))
-    return _Matched(MatchedRing(a, b, here, there, numbers), proposed)
+    return MarkedRing(MatchedRing(source, target, here, there, numbers), proposed, match)
 
 
-def _shifted(source: CleanOutline, target: CleanOutline, pair: RingPair) -> _Matched:
+def _shifted(source: Array, target: Array, pair: RingPair) -> RingMatch:
     """Match by arc length from the best cyclic shift on; nothing is sure about it."""
-    a, b = source.rings[pair.source], target.rings[pair.target]
-    start, end = best_shift(a, b, pair.rotation)
-    return _proposed(source, target, pair, *(np.array([v]) for v in (start, end, 0.0)))
+    return RingMatch.by_length(source, target, best_shift(source, target, pair.rotation))
 
 
 def _ring(index: int) -> str:

@@ -76,7 +76,7 @@ def solve_outlines(
         iterations=found.iterations,
         stages=_stages(clock, ends, found, choice.tried, recipe),
         tried=choice.tried,
-        mirror=taken.mirror and found.mean > GOOD,
+        mirror=taken.matching.mirror and found.mean > GOOD,
         repairs=ends[0].repairs + ends[1].repairs,
         proposed=unplace_marks(taken.proposed, (source, target), ends),
     )

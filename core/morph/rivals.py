@@ -7,17 +7,20 @@ further it turns the shape, and the less the outlines that it joins are alike wh
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from time import perf_counter
 from typing import Self
 
 import numpy as np
 
-from core.errors import SolveError
+from core.errors import MarkError, SolveError
 from core.geometry.validate import CleanOutline
 from core.model import Recipe
 from core.model.outline import Array
 from core.morph.correspondence import Correspondence
 from core.morph.mapping import Map, direct_map, mended_map
+from core.morph.report import Stage
+from core.morph.sliding import slide
 from core.progress import Watch
 
 GOOD = 1.3
@@ -26,6 +29,8 @@ TURNING = 0.4
 """What half a turn adds to the cost of a map, as a fraction of it."""
 ALIKE = 0.05
 """Misfit below which correspondences hardly differ. Above, twice the misfit costs √2 times more."""
+SLIDING, SLIDES = 1.12, 2
+"""Mean distortion from which on the boundary may slide, and how often."""
 MENDABLE = 100.0
 """What a triangle counts at most: mending will put right what is worse, or folded."""
 
@@ -62,9 +67,9 @@ class Choice:
 
 
 def choose(
-    rivals: Iterable[Correspondence], frames: tuple[Frame, Frame], recipe: Recipe, watch: Watch
+    rivals: Iterable[Correspondence], frames: Frames, recipe: Recipe, watch: Watch
 ) -> Choice:
-    """Map the correspondences that may be the best one, and mend the map of the one that is.
+    """Map the correspondences that may be the best one; improve the map of the one that is.
 
     ``rivals`` come the most likely first. ``watch(stage)`` is called between steps and may raise
     ``Cancelled``. Raises ``SolveError`` if there is no rival.
@@ -79,15 +84,17 @@ def choose(
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
     tried.sort(key=lambda each: each.cost)
-    best = tried[0].mended(recipe, watch)
+    best = tried[0].finished(frames, recipe, watch)
     for other in tried[1:]:
         if best.full_cost <= other.cost:
             break
-        best = min(best, other.mended(recipe, watch), key=lambda each: each.full_cost)
+        after = other.finished(frames, recipe, watch)
+        best = min(best, after, key=lambda each: each.full_cost)
     return Choice(best.rival, best.map, len(tried))
 
 
 Rings = list[Array]
+Frames = tuple[Frame, Frame]
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +103,8 @@ class _Tried:
     ends: tuple[Rings, Rings]
     doubt: float
     map: Map
+    final: bool = False
+    """Whether the map has been mended."""
 
     @property
     def cost(self) -> float:
@@ -106,9 +115,41 @@ class _Tried:
     def full_cost(self) -> float:
         return _cost(self.map.mean, self.map.turn, self.doubt)
 
+    def finished(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried:
+        """Return what it becomes: its boundary slid, as long as that helps, and its map mended."""
+        best = self.unfolded(recipe, watch)
+        for _ in range(SLIDES):
+            if not best.rival.proposed or not best.map.sound or best.map.mean < SLIDING:
+                break
+            after = best.slid(frames, recipe, watch)
+            if after is None or after.cost >= best.cost:
+                break
+            best = after
+        return best.mended(recipe, watch)
+
+    def slid(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried | None:
+        """Return the map, without folds, of what the boundary slides to; none if that fails."""
+        start = perf_counter()
+        try:
+            rival = self.rival.slid(slide(self.map.mesh, self.map.target, watch))
+        except MarkError:
+            return None
+        stage = Stage("sliding", perf_counter() - start, f"from distortion {self.map.mean:.3f}")
+        ends = _inside(rival, frames)
+        direct = direct_map(*ends, recipe, watch)
+        direct = replace(direct, stages=(stage, *direct.stages))
+        return _Tried(rival, ends, self.doubt, direct).unfolded(recipe, watch)
+
+    def unfolded(self, recipe: Recipe, watch: Watch) -> _Tried:
+        """Return it without folds."""
+        return self if self.map.sound else self.mended(recipe, watch)
+
     def mended(self, recipe: Recipe, watch: Watch) -> _Tried:
+        """Return it with folds and small angles put right."""
+        if self.final:
+            return self
         found = mended_map(self.map, *self.ends, recipe, watch)
-        return _Tried(self.rival, self.ends, self.doubt, found)
+        return replace(self, map=found, final=True)
 
 
 def _cost(distortion: float, turn: float, doubt: float) -> float:
@@ -116,7 +157,7 @@ def _cost(distortion: float, turn: float, doubt: float) -> float:
 
 
 def _doubt(rival: Correspondence, likeliest: Correspondence) -> float:
-    return float(np.sqrt((ALIKE + rival.misfit) / (ALIKE + likeliest.misfit)))
+    return float(np.sqrt((ALIKE + rival.matching.misfit) / (ALIKE + likeliest.matching.misfit)))
 
 
 def _turn(source: Rings, target: Rings) -> float:
@@ -125,7 +166,7 @@ def _turn(source: Rings, target: Rings) -> float:
     return float(np.angle(np.vdot(here - here.mean(), there - there.mean())))
 
 
-def _inside(rival: Correspondence, frames: tuple[Frame, Frame]) -> tuple[Rings, Rings]:
+def _inside(rival: Correspondence, frames: Frames) -> tuple[Rings, Rings]:
     return (
         [frames[0].inside(pair.source) for pair in rival.boundaries],
         [frames[1].inside(pair.target) for pair in rival.boundaries],

@@ -26,6 +26,9 @@ TURN_REACHES = (0.01, 0.03)
 """The chords before and after a point that its turns are measured between."""
 CORNER = np.radians(30)
 """A vertex where a ring turns by more than this, over the shortest such chords, is a corner."""
+ACROSS, WIDE = 3.0, 1 / np.pi
+"""Across from a place lies what is so many times further along the ring; if nothing does, the ring
+is as wide as a circle."""
 HAIR = 0.0015
 """Places this near to a vertex may as well lie on it: a sample is no more exact."""
 
@@ -77,6 +80,16 @@ class Contour:
         """Return the angles (k,) between the chords before and after places."""
         before, here, after = (self.points_at(at + step) for step in (-reach, 0.0, reach))
         return np.angle((after - here) * np.conj(here - before))
+
+    def widths_at(self, at: Array) -> Array:
+        """Return how far it is across from places (k,), as fractions of the perimeter.
+
+        Across lies what is near, but far along the ring.
+        """
+        others = np.arange(EVEN) / EVEN
+        away = np.abs(self.points_at(at)[:, None] - self.points_at(others)) / self.lengths[-1]
+        across = np.abs(gap(at[:, None], others)) > ACROSS * away
+        return np.where(across, away, WIDE).min(axis=1)
 
     def area_and_centre(self) -> tuple[float, complex]:
         """Return the enclosed area, and its centre."""

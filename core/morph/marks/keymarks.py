@@ -15,19 +15,25 @@ from numpy.typing import NDArray
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.marks.chain import Chain, Pair
-from core.morph.marks.contour import Contour, gap
+from core.morph.marks.contour import WIDE, Contour, gap
 from core.morph.marks.matching import Match
 
-NEAR = 0.02
-"""How far from where it is expected a corner's partner may lie."""
+NEAR, NEARER = 0.02, 0.3
+"""How far from where it is expected a corner's partner may lie; and how far in widths of the limb
+that it is on: what slides further along one side shears it."""
 SIMILAR = np.radians(70)
 """How differently partners may turn."""
-CLOSE, CLOSER = 0.008, 0.003
-"""How near the marks have to bring every place to where it belongs; and how near a corner."""
+CLOSE, CLOSER, CLOSEST = 0.008, 0.003, 0.001
+"""How near the marks have to bring every place to where it belongs, how near a corner, and what is
+always near enough."""
+SLIM = 0.2
+"""How near in widths of the limb, where that is less."""
 APART, ASIDE = 0.006, 0.009
 """Corners with partners are further apart than this, other places further from them."""
+ENOUGH = 0.02
+"""Fixed marks that bring every place so near need no others."""
 MOST = 24
-"""Marks that are suggested at most."""
+"""So many marks need no others, either."""
 SAME = 1e-9
 """Places this near to each other are one."""
 
@@ -43,6 +49,8 @@ class Route:
     """(k,) … whether it is a pair of corners. The last knot, which is the first, is neither."""
     key: NDArray[np.bool_]
     """(k,) Whether it is to be a mark in any case."""
+    width: Array
+    """(k,) How wide the limb is that it is on, in perimeters."""
 
     @classmethod
     def of(
@@ -69,7 +77,14 @@ class Route:
         )
         near = np.abs(gap(at[:-1, None], np.asarray(keys))) < SAME
         key = np.append(near.any(axis=1), False)
-        return cls(replace(match, source=at, target=image), given, corner, key)
+        width = np.minimum(source.widths_at(at), target.widths_at(image))
+        return cls(replace(match, source=at, target=image), given, corner, key, width)
+
+    @classmethod
+    def plain(cls, match: Match) -> Route:
+        """Take a match as it is."""
+        none = np.zeros(len(match.source), dtype=bool)
+        return cls(match, none, none, none, np.full(len(none), WIDE))
 
     def reversed(self) -> Route:
         """Return the same route, seen from the target."""
@@ -83,13 +98,15 @@ class Route:
         if not known and not chosen:
             chosen = [int(np.argmax(self.match.sureness(s[:-1]) + self.corner[:-1]))]
         tolerance = np.where(self.corner, CLOSER, CLOSE)
-        while len(chosen) < MOST:
+        tolerance = np.minimum(tolerance, np.maximum(SLIM * self.width, CLOSEST))
+        while len(known) + len(chosen) < MOST:
             kept = np.sort([*known, *chosen])
             ends, turn = np.array([kept[-1], *kept, kept[0]]), np.array([-1, *(0 * kept), 1])
             along = np.interp(s, s[ends] + turn, t[ends] + turn) - t
             back = np.interp(t, t[ends] + turn, s[ends] + turn) - s
-            needed = np.sqrt(np.abs(along * back)) / tolerance
-            if needed.max() <= 1:
+            off = np.sqrt(np.abs(along * back))
+            needed = off / tolerance
+            if needed.max() <= 1 or (not chosen and off.max() <= ENOUGH):
                 break
             chosen.append(int(np.argmax(needed[:-1])))
         return np.sort(np.array(chosen, dtype=np.int64))
@@ -108,7 +125,9 @@ def _corner_pairs(source: Contour, target: Contour, match: Match) -> list[Pair]:
     along, back = gap(t, match.image(s)[:, None]), gap(s[:, None], match.origin(t))
     away = np.sqrt(np.abs(along * back))
     unlike = np.abs(s_turns[:, None] - t_turns)
-    possible = (away < NEAR) & (unlike < SIMILAR) & (s_turns[:, None] * t_turns > 0)
+    width = np.minimum(source.widths_at(s)[:, None], target.widths_at(t))
+    near = np.minimum(NEAR, NEARER * width)
+    possible = (away < near) & (unlike < SIMILAR) & (s_turns[:, None] * t_turns > 0)
     cost = np.where(possible, away / NEAR + unlike / SIMILAR, np.inf)
     j = cost.argmin(axis=1)
     i = np.flatnonzero((cost.argmin(axis=0)[j] == np.arange(len(s))) & possible.any(axis=1))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from core.model.outline import Array
 from core.morph.marks.chain import Pair, in_order
 from core.morph.marks.contour import Contour, gap
 from core.morph.marks.keymarks import Route
-from core.morph.marks.matching import match_contours
+from core.morph.marks.matching import Match, match_contours
 from core.progress import Watch, unwatched
 
 EMPTY = 1e-6
@@ -37,6 +38,16 @@ class RingMatch:
     perimeters: Array
     """(2,) of the rings as drawn."""
     route: Route
+
+    @classmethod
+    def by_length(cls, source: Array, target: Array, starts: Pair) -> Self:
+        """Match rings by arc length alone, from corresponding starts on: nothing is sure there."""
+        contours = Contour.of(source), Contour.of(target)
+        perimeters = np.array([arc_lengths(ring)[-1] for ring in (source, target)])
+        places = zip(contours, np.array(starts) / perimeters, strict=True)
+        here, there = (at.translated(np.array([start])) + np.arange(2) for at, start in places)
+        unsure = Match(here, there, 1.0, np.zeros(1), np.zeros(1), mirrored=False)
+        return cls(*contours, perimeters, Route.plain(unsure))
 
     @property
     def cost(self) -> float:
@@ -63,6 +74,18 @@ class RingMatch:
         """Return where arc lengths (j,) on the source belong on the target."""
         at = self.source.translated(lengths / self.perimeters[0])
         return self.target.translated(self.route.match.image(at)) * self.perimeters[1]
+
+    def along(self, pairs: Array) -> RingMatch:
+        """Return a match as sure as this one that leads through other pairs of arc lengths (k, 2).
+
+        They are in order around both rings.
+        """
+        sides = zip((self.source, self.target), (pairs / self.perimeters).T, strict=True)
+        once = np.column_stack([contour.translated(at) for contour, at in sides])
+        once = once[::-1] if self.source.backwards else once
+        source, target = np.unwrap(np.vstack([once, once[:1]]), axis=0, period=1.0).T
+        match = replace(self.route.match, source=source, target=target)
+        return replace(self, route=Route.of(self.source, self.target, match))
 
     def confirmed_by(self, fixed: Sequence[Pair]) -> bool:
         """Whether pairs of arc lengths lie on the match."""

@@ -21,8 +21,16 @@ def test_the_documented_attributes_have_the_documented_shapes():
     assert report.folds_source == report.folds_target == ()
     assert report.distortion_worst >= report.distortion_mean >= 1
     stages = [stage.name for stage in report.stages]
-    assert stages == ["outlines", "matching", "mesh", "placement", "angles", "in-between"]
-    last = report.stages[4]
+    assert stages == [
+        "outlines",
+        "matching",
+        "sliding",
+        "mesh",
+        "placement",
+        "angles",
+        "in-between",
+    ]
+    last = report.stages[5]
     assert (last.folds, last.distortion) == (0, pytest.approx(report.distortion_mean))
     assert report.seconds == pytest.approx(sum(stage.seconds for stage in report.stages))
 

@@ -40,6 +40,12 @@ def test_a_rounded_corner_is_one_corner():
     assert len(Contour.of(rounded).corners[0]) == 4
 
 
+def test_a_limb_is_as_wide_as_it_was_drawn():
+    contour = Contour.of(np.array([[0.0, 0], [10, 0], [10, 1], [0, 1]]))
+    middle_of_a_side = np.array([5 / 22, 16 / 22])
+    assert contour.widths_at(middle_of_a_side) == pytest.approx(1 / 22, rel=0.05)
+
+
 @pytest.mark.parametrize("backwards", [False, True])
 def test_a_place_translates_there_and_back(backwards):
     ring = letter_l()[::-1] if backwards else letter_l()
