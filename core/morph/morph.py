@@ -83,7 +83,8 @@ class Morph:
         return None if positions is None else self._outside(positions)
 
     def _outside(self, positions: Array) -> Array:
-        """Return positions (n, 2) of the solver in the document's coordinates."""
-        positions = self.origin + self.unit * positions
+        """Put positions (n, 2) of the solver, made just now, into the document's coordinates."""
+        positions *= self.unit
+        positions += self.origin
         positions.setflags(write=False)
         return positions
