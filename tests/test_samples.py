@@ -17,7 +17,15 @@ from core.io import project
 from core.model import Document, Layer
 from core.morph.morph import Morph
 from core.morph.quality import crosses_itself
-from core.morph.scene import Span, carrying, layer_rings, picture_at, solve_span, span_of
+from core.morph.scene import (
+    Span,
+    carrying,
+    layer_rings,
+    picture_at,
+    solve_span,
+    span_of,
+    turn_of,
+)
 from resources import sample, samples
 
 EVERY = [path.stem for path in samples()]
@@ -146,3 +154,19 @@ def test_what_hangs_on_the_fox_drifts_no_further_from_it_than_it_is_drawn(part):
             own, on_fox = (there[i].interpolate(morphs[i].at(s)) for i in (0, 1))
             drift = moved(own) - on_fox - s * drawn
             assert np.hypot(*drift[0]) < 0.3, frame
+
+
+def test_the_pinwheel_turns_twice_on_a_stick_that_bends_and_its_hub_goes_with_it():
+    document = document_of("spinning-pinwheel")
+    by_name = {layer.name: layer for layer in document.layers}
+    stick, sails, pin = (by_name[name] for name in ("stick", "sails", "pin"))
+    hub, tips = [], []
+    for frame in np.linspace(*document.frames, 193):
+        [blades], [disc] = (layer_rings(document, some, frame, solved) for some in (sails, pin))
+        hub.append(disc.mean(axis=0))
+        tips.append(max((complex(*(blade - hub[-1])) for blade in blades), key=abs))
+    assert np.ptp(hub, axis=0)[0] > 50
+    assert turn_of(document, sails, 0, solved) == pytest.approx(4 * np.pi, abs=0.2)
+    quarters = np.unwrap(np.angle(tips), period=np.pi / 2)  # four sails alike
+    assert quarters[-1] - quarters[0] == pytest.approx(8 * np.pi, abs=0.1)
+    assert abs(turn_of(document, stick, 0, solved)) < 1

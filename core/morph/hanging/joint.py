@@ -132,6 +132,8 @@ class MovingJoint:
         There it must not: the span's own motion has the velocity that it shares with the next.
         """
         self._rates = 0.0, 0.0
+        if not any(self._stretch.passes):
+            return self._rates
         first, last = self._stretch.first, self._stretch.last
         step = NO_TIME * (last - first)
         start, end = (self.turned(frame) for frame in (first + step, last - step))
