@@ -31,7 +31,7 @@ from tests.core.shapes import limb
 if TYPE_CHECKING:
     from app.main_window import MainWindow
 
-HEAVY = ("spring-08", "circle-00", "octopus-02", "Comma-16", "rat-08")
+HEAVY = ("spring-08", "circle-00", "octopus-02", "lizard-02", "stingray-06")
 """Sources of pairs that take long to solve, or whose frames do."""
 SPAN = 24
 TICK_MS = 16
