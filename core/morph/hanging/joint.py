@@ -6,6 +6,7 @@ same place of it at both keys: a limb's where it turns, a wheel's at its hub.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -85,7 +86,7 @@ class MovingJoint:
         self._weights = 1 / (1 + apart) ** 2
         self._weights /= self._weights.sum()
         self._seen = self._seen_turn(self._carrier_turned(last, end))
-        self._rates = self._extra_rates()
+        self._spins = self._extra_spins()
 
     @property
     def angle(self) -> float:
@@ -111,35 +112,38 @@ class MovingJoint:
         arm = turn * np.exp(-1j * s * whole) * (joint - centre)
         return RigidMotion(turn, goal - arm - turn * centre)
 
-    def rate(self, end: int) -> complex:
-        """Return the velocity of the layer's centre by this at an end, 0 or 1, per frame."""
-        stretch = self._stretch
-        step = NO_TIME * (stretch.last - stretch.first) * (1 - 2 * end)
-        x = self._morph.at(end)
-        return self((stretch.first, stretch.last)[end] + step).displacement(x.mean(axis=0)) / step
+    @cached_property
+    def rates(self) -> tuple[complex, complex]:
+        """The velocity that this adds to the layer's centre at both ends, per frame."""
+        first, last = self._stretch.first, self._stretch.last
+        step = NO_TIME * (last - first)
+        start, end = self._morph.rest.mean(axis=0), self._morph.target.mean(axis=0)
+        return (
+            self(first + step).displacement(start) / step,
+            -self(last - step).displacement(end) / step,
+        )
 
     def _turned(self, frame: float, places: Array) -> float:
         if self._morph.inbetween.course is None:
             return 0.0
         s = self._stretch.progress(frame)
         own = s * (self.angle - self._morph.angle)
-        smoothed = sum(bump * rate for bump, rate in zip(bumps(s), self._rates, strict=True))
+        smoothed = sum(bump * rate for bump, rate in zip(bumps(s), self._spins, strict=True))
         return self._carrier_turned(frame, places) + own - smoothed
 
-    def _extra_rates(self) -> tuple[float, float]:
+    def _extra_spins(self) -> tuple[float, float]:
         """Return how fast this turns the span, per unit s, at ends that the motion passes through.
 
         There it must not: the span's own motion has the velocity that it shares with the next.
         """
-        self._rates = 0.0, 0.0
+        self._spins = 0.0, 0.0
         if not any(self._stretch.passes):
-            return self._rates
+            return self._spins
         first, last = self._stretch.first, self._stretch.last
         step = NO_TIME * (last - first)
         start, end = (self.turned(frame) for frame in (first + step, last - step))
-        rates = start / NO_TIME, (self.turned(last) - end) / NO_TIME
         before, after = self._stretch.passes
-        return rates[0] * before, rates[1] * after
+        return before * start / NO_TIME, after * (self.turned(last) - end) / NO_TIME
 
     def _carrier_turned(self, frame: float, places: Array) -> float:
         """Return how far the carrier has turned where it has its part of the joint."""

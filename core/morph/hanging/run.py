@@ -99,7 +99,7 @@ class Run:
             if stretch.passes[end]:
                 joint, other = self.joint(index), self.joint(index - 1 + 2 * end)
                 if isinstance(joint, MovingJoint) and isinstance(other, MovingJoint):
-                    apart = other.rate(1 - end) - joint.rate(end)
+                    apart = other.rates[1 - end] - joint.rates[end]
                     shift += bump * (stretch.last - stretch.first) * apart / 2
         return shift
 
