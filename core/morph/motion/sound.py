@@ -206,14 +206,13 @@ class SoundFrames:
     def _missing(self, anchors: Sequence[Anchor]) -> list[Anchor]:
         """Return anchors in the middle of stretches where what is carried must be settled."""
         found = []
-        for before, after in pairwise(anchors):
-            t = (before.t + after.t) / 2
+        for ends in filter(self._stretch, pairwise(anchors)):
+            t = (ends[0].t + ends[1].t) / 2
             _, trouble = self._carried(t)
             if trouble is not None:
                 self._watch("in-between")
-                found.append(
-                    replace(self._plain_anchor(t), frame=self._settled(t, *trouble), held=True)
-                )
+                frame = self._settled(t, *trouble)
+                found.append(replace(self._plain_anchor(t), frame=frame, held=True))
         return found
 
 
