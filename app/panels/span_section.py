@@ -19,7 +19,7 @@ from app.workspace import Workspace
 from core.model import Document, Easing
 from core.model.easing import PRESETS
 from core.model.edits import move_keyframe, set_easing, set_passing, set_turning
-from core.model.turning import MOST_TURNS, Direction, Path
+from core.model.turning import MOST_TURNS, About, Direction, Path
 from core.morph.scene import turn_of
 
 MOST_FRAMES = 1_000_000
@@ -98,6 +98,7 @@ class SpanSection(Section):
         self.add_wide(self.curve)
         self.add_row(self.tr("Turn"), self.direction)
         self.add_row(self.tr("Extra turns"), self.turns)
+        self.add_row(self.tr("About"), self.about)
         self.add_row(self.tr("In all"), self.angle)
         self.add_row(self.tr("Path"), self.path)
 
@@ -115,11 +116,22 @@ class SpanSection(Section):
         self.turns = NumberField(self.tr("Extra whole turns"), 0, MOST_TURNS)
         self.turns.setToolTip(
             self.tr(
-                "Whole turns besides, about the shape's own centre.\n"
+                "Whole turns besides.\n"
                 "A part that turns by itself, like a propeller, is a layer that hangs on another."
             )
         )
         self.turns.edited.connect(self._set_turns)
+        self.about = Choice(
+            self.tr("What extra turns are about"),
+            [(self.tr("Its centre"), "centre"), (self.tr("Where it hangs"), "joint")],
+        )
+        self.about.setToolTip(
+            self.tr(
+                "A propeller turns about its centre; an arm or a clock's hand where it hangs.\n"
+                "That is the place that stays the same from key to key on what carries it."
+            )
+        )
+        self.about.edited.connect(self._set_about)
         self.path = Choice(
             self.tr("Path of the centre"),
             [(self.tr("Arc"), "arc"), (self.tr("Straight"), "straight")],
@@ -150,12 +162,14 @@ class SpanSection(Section):
         self.curve.show_time(t)
         self.direction.show_value(first.turning.direction)
         self.turns.show_value(first.turning.turns)
+        self.about.show_value(first.turning.about)
         self.path.show_value(first.turning.path)
         for field in (self.preset, self.curve):
             field.setEnabled(not layer.locked)
         turns = not layer.locked and layer.recipe.method != "linear"
         for field in (self.direction, self.turns):
             field.setEnabled(turns)
+        self.about.setEnabled(turns and layer.carrier is not None)
         self.path.setEnabled(turns and layer.carrier is None)
         self.show_angle()
 
@@ -191,6 +205,9 @@ class SpanSection(Section):
 
     def _set_turns(self, turns: float) -> None:
         self._turn(self.turns.gesture, self.tr("Change extra turns"), turns=int(turns))
+
+    def _set_about(self, about: About) -> None:
+        self._turn(object(), self.tr("Change extra turns"), about=about)
 
     def _set_path(self, path: Path) -> None:
         self._turn(object(), self.tr("Change path"), path=path)

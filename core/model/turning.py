@@ -8,6 +8,7 @@ from typing import Literal
 
 Direction = Literal["automatic", "clockwise", "counter-clockwise"]
 Path = Literal["arc", "straight"]
+About = Literal["centre", "joint"]
 
 MOST_TURNS = 100
 SLACK = pi / 18
@@ -25,6 +26,8 @@ class Turning:
     """Whole turns besides, the same way; clockwise where the shape hardly turns at all."""
     path: Path = "arc"
     """Of the centre: round the point about which the shape turns and grows, or straight."""
+    about: About = "centre"
+    """What whole turns are about: the shape's own centre, or where it hangs on another layer."""
 
     def swing(self, nearest: float) -> float:
         """Return the angle from key to key without whole turns; ``nearest`` is in [-π, π)."""
@@ -52,9 +55,10 @@ class Turning:
     def _through(self, angle: float, path: Path) -> Turning:
         """Return the turning whose angle this is."""
         if -pi <= angle < pi and (self.direction == "automatic" or abs(angle) <= SLACK):
-            return Turning(path=path)
+            return Turning(path=path, about=self.about)
         turns = int((abs(angle) + SLACK) // tau)
-        return Turning("clockwise" if angle > 0 else "counter-clockwise", turns, path)
+        way: Direction = "clockwise" if angle > 0 else "counter-clockwise"
+        return Turning(way, turns, path, self.about)
 
 
 AS_DRAWN = Turning()

@@ -7,7 +7,7 @@ same place of it at both keys: a limb's where it turns, a wheel's at its hub.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 import shapely
@@ -30,8 +30,12 @@ LEAST_POINTS = 8
 """What lies nearest to the carrier is joined to it, if less lies on it."""
 NO_TIME = 1e-4
 """Part of a span in which nothing turns unevenly."""
-CLOSE = 0.01
-"""Gap that counts as none, as a fraction of the layer's size."""
+CLOSE = 0.03
+"""By how much what hardly slides on the carrier may do so, as a fraction of the layer's size."""
+STIFF = 0.1
+"""Turn on the carrier, in radians, below which it is doubtful what a layer turns about."""
+NEAR = 2.0
+"""How far that may be from the points that slide least, in standard deviations of these."""
 
 
 class Joint(Protocol):
@@ -66,8 +70,8 @@ class StillJoint:
 class MovingJoint:
     """Keeps a span's frames joined to the carrier, and turns them with it.
 
-    The span's own turn is what the carrier's leaves of it; whole turns besides are about the
-    layer's own centre, and do not move the joint.
+    The span's own turn is what the carrier's leaves of it. Whole turns besides about the layer's
+    own centre leave that where it would be without them.
     """
 
     def __init__(self, stretch: Stretch, morph: Morph, carrier: Run) -> None:
@@ -81,10 +85,9 @@ class MovingJoint:
         self._vertices = np.concatenate(joined)
         self._start, end = self._places(first), self._places(last)
         self._gaps = morph.rest[self._vertices] - self._start, morph.target[self._vertices] - end
-        size = CLOSE * np.hypot(*np.ptp(morph.rest, axis=0))
-        apart = sum((gap**2).sum(axis=1) for gap in self._gaps) / size**2
-        self._weights = 1 / (1 + apart) ** 2
-        self._weights /= self._weights.sum()
+        size = float(np.hypot(*np.ptp(morph.rest, axis=0)))
+        slid = self._gaps[1] - self._gaps[0]
+        self._weights = _hinge(morph.rest[self._vertices], slid, CLOSE * size)
         self._seen = self._seen_turn(self._carrier_turned(last, end))
         self._spins = self._extra_spins()
 
@@ -107,7 +110,8 @@ class MovingJoint:
         course = self._morph.inbetween.course
         if course is None:
             return RigidMotion(1, goal - joint)
-        whole = self.angle - course.turning.swing(self._seen)
+        central = course.turning.about == "centre"
+        whole = self.angle - course.turning.swing(self._seen) if central else 0.0
         turn, centre = np.exp(1j * self._turned(frame, places)), complex(*(course.mass @ x))
         arm = turn * np.exp(-1j * s * whole) * (joint - centre)
         return RigidMotion(turn, goal - arm - turn * centre)
@@ -168,6 +172,23 @@ def _joined(points: Array, carrier: Run, frame: float) -> Indices:
     if len(on) < LEAST_POINTS:
         on = np.argsort(distance, kind="stable")[:LEAST_POINTS]
     return on[:: 1 + len(on) // MOST_POINTS]
+
+
+def _hinge(points: Array, slid: Array, close: float) -> Array:
+    """Return weights (k,) of points (k, 2) that slide by so much (k, 2) on the carrier.
+
+    Their mean so weighted is where nothing slides, if that is near: close to the points that slide
+    least, sliding is taken to be affine.
+    """
+    weights = 1 / (1 + (slid**2).sum(axis=1) / close**2) ** 2
+    weights /= weights.sum()
+    x, mean = points - weights @ points, weights @ slid
+    spread = np.linalg.pinv((weights * x.T) @ x)
+    change = (weights * (slid - mean).T) @ x @ spread
+    way = -np.linalg.solve(change.T @ change + STIFF**2 * np.eye(2), change.T @ mean)
+    reach = float(np.sqrt(way @ spread @ way))
+    way *= min(1, NEAR / reach) if reach else 1
+    return cast(Array, weights * (1 + x @ spread @ way))
 
 
 def _on_branch(turn: complex, near: float) -> float:

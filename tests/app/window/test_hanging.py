@@ -92,6 +92,8 @@ def test_a_propeller_hung_on_a_body_is_carried_and_a_key_made_there_turns_as_oft
     QTest.keyClick(panel.span.turns, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: panel.span.angle.text() == "720° clockwise")
     assert not panel.span.path.isEnabled()
+    pick(panel.span.about, "Where it hangs")
+    assert space.session.document.layer(2).keyframes[0].turning.about == "joint"
 
     space.playhead.move_to(9)
     qtbot.waitUntil(lambda: moment_of(space).positions is not None)
@@ -107,6 +109,7 @@ def test_a_hidden_body_still_carries(flying: MainWindow, qtbot: QtBot) -> None:
     space = flying.workspace
     pick(flying.properties.layer.carrier, "body")
     space.selection.select_layer(1)
+    assert not flying.properties.span.about.isEnabled()  # it hangs on nothing
     flying.canvas.setFocus()
     table = flying.layers.table
     flying.layers.list.clicked.emit(table.index(table.row_of(1), 0))

@@ -44,6 +44,7 @@ TURNINGS = st.builds(
     st.sampled_from(["automatic", "clockwise", "counter-clockwise"]),
     st.integers(0, 100),
     st.sampled_from(["arc", "straight"]),
+    st.sampled_from(["centre", "joint"]),
 )
 STYLES = st.builds(Style, COLOURS, COLOURS, st.floats(0, 1e300))
 RECIPES = st.builds(

@@ -14,7 +14,7 @@ from core.model.easing import EASE_IN_OUT, HOLD
 from core.model.edits import insert_keyframe
 from core.model.turning import AS_DRAWN
 from core.morph.scene import Span, carrying, keyframe_at, layer_rings, solve_span, span_of
-from tests.core.shapes import Array, letter_l, limb, rotation
+from tests.core.shapes import Array, ellipse, letter_l, limb, rotation
 
 solved = cache(solve_span)
 Pose = tuple[float, tuple[float, float]]
@@ -156,6 +156,36 @@ def test_what_swings_about_a_pin_stays_pinned(angles):
 
     assert drift(swinging(angles, 1)) < 0.02
     assert drift(swinging(angles, 1)) < 0.2 * drift(swinging(angles, None))
+
+
+@pytest.mark.parametrize("turns", [0, 1, 3])
+def test_the_hand_of_a_clock_turns_as_often_as_told_about_its_pin(turns):
+    face = [placed(6 * ellipse(24, 1, 1), pose) for pose in POSES]
+    hand = np.array([[-0.3, 1], [-0.3, -5], [0.3, -5], [0.3, 1]])
+    hands = [
+        placed(hand @ rotation(angle).T, pose)
+        for angle, pose in zip((0.0, np.pi / 2), POSES, strict=True)
+    ]
+    turning = Turning("clockwise", turns, about="joint")
+    document = Document(
+        (
+            layer(1, list(zip((1, 25), face, strict=True))),
+            layer(2, list(zip((1, 25), hands, strict=True)), 1, turning=turning),
+        )
+    )
+    tips, pins = [], []
+    pin = [
+        Located.on(m.rest, m.triangles, np.zeros((1, 2)))
+        for m in (solved(span_of(drawn, 0)) for drawn in document.layers)
+    ]
+    for frame in np.linspace(1, 25, 97):
+        ends = [place.interpolate(shown(document, i, frame)) for i, place in enumerate(pin, 1)]
+        pins.append(np.hypot(*(ends[0] - ends[1])[0]))
+        dial, tip = (shown(document, i, frame)[0] - ends[0][0] for i in (1, 2))
+        tips.append(complex(*tip) / complex(*dial))
+    seen = np.unwrap(np.angle(tips))
+    assert max(pins) < 0.02
+    assert seen[-1] - seen[0] == pytest.approx(np.pi / 2 + 2 * np.pi * turns, abs=1e-6)
 
 
 def test_a_layer_turns_the_way_the_place_turns_that_it_hangs_on():
