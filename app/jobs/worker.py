@@ -140,6 +140,26 @@ class _Job:
         self.stop = threading.Event()
 
 
+class _Report:
+    """Tells of the progress of work while it lasts; whoever keeps it keeps nothing of Qt's."""
+
+    def __init__(self, stop: threading.Event, tell: Callable[[float, str], object]) -> None:
+        self._stop, self._last = stop, (-REPORT_EVERY, "")
+        self._tell: Callable[[float, str], object] | None = tell
+
+    def __call__(self, fraction: float, stage: str) -> None:
+        if self._stop.is_set():
+            raise Cancelled
+        now, (then, before) = time.monotonic(), self._last
+        if self._tell is not None and (stage != before or now >= then + REPORT_EVERY):
+            self._last = now, stage
+            self._tell(fraction, stage)
+
+    def end(self) -> None:
+        """Tell no more."""
+        self._tell = None
+
+
 class _Runner(QObject):
     """The half that lives in the thread."""
 
@@ -149,26 +169,17 @@ class _Runner(QObject):
     @Slot(object)
     def run(self, job: _Job) -> None:
         """Do the work of a job."""
-        last: tuple[float, str] = (-REPORT_EVERY, "")
-
-        def report(fraction: float, stage: str) -> None:
-            nonlocal last
-            if job.stop.is_set():
-                raise Cancelled
-            now = time.monotonic()
-            if stage != last[1] or now >= last[0] + REPORT_EVERY:
-                last = now, stage
-                self.progressed.emit(fraction, stage)
-
+        report = _Report(job.stop, self.progressed.emit)
         try:
             report(0.0, "")
             outcome = job.work(report)
         except (Cancelled, MorphError) as reason:
-            outcome = reason
+            outcome = reason.with_traceback(None)  # which would keep all that the work had in hand
         except Exception as fault:
             log.exception("Work in the background failed")
             outcome = MorphError(
                 f"The program failed at this ({type(fault).__name__}: {fault}).",
                 hint="Nothing of yours is lost. Undo the last change, or save and report it.",
             )
+        report.end()
         self.done.emit(job.number, outcome)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import threading
+import weakref
 
 from pytestqt.qtbot import QtBot
 
@@ -33,6 +34,20 @@ def test_what_a_worker_allocates_frees_nothing_in_its_thread(collector: Collecto
     worker.close()
     gc.collect()
     assert died == [threading.main_thread()]
+
+
+def test_what_keeps_the_progress_of_its_work_keeps_nothing_of_qts(
+    collector: Collector, qtbot: QtBot
+):
+    kept: list[Progress] = []
+    worker = Worker("keeping")
+    runner = weakref.ref(worker._runner)
+    with qtbot.waitSignal(worker.done):
+        worker.start(kept.append)
+    worker.close()
+    gc.collect()
+    assert kept
+    assert runner() is None
 
 
 def test_little_garbage_is_left_alone(collector: Collector):

@@ -174,7 +174,7 @@ def test_the_span_under_the_playhead_is_checked_first_and_nothing_while_solving(
     gate = threading.Event()
 
     def slow(span: Span, progress: Progress) -> Nothing:
-        gate.wait()
+        assert gate.wait(20)
         return Nothing()
 
     workspace = open_workspace(document(1, 13, 25), slow, eye)

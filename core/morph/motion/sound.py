@@ -96,12 +96,12 @@ class SoundFrames:
         ``turning`` (n,) is how far the shape turns around each vertex.
         """
         self._ideal, self._turning, self._fit = ideal, turning, fit
-        self._hold, self._watch = Hold(fit, guard, contact), watch
+        self._hold = Hold(fit, guard, contact)
         self._between: dict[Ends, Stretch | None] = {}
-        anchors = self._survey()
+        anchors = self._survey(watch)
         self._lay(anchors)
         for _ in range(LEVELS):
-            if not (more := self._missing(anchors)):
+            if not (more := self._missing(anchors, watch)):
                 break
             anchors = sorted([*anchors, *more], key=attrgetter("t"))
             self._lay(anchors)
@@ -143,22 +143,23 @@ class SoundFrames:
 
     # -- the survey ----------------------------------------------------------------------------
 
-    def _survey(self) -> list[Anchor]:
+    def _survey(self, watch: Watch) -> list[Anchor]:
         """Return anchors, settled from both ends towards the middle.
 
         So the swapped motion goes the same way back.
         """
         plain = [self._plain_anchor(float(t)) for t in np.linspace(0, 1, SURVEY + 1)]
         half = SURVEY // 2
-        first, last = self._walk(plain[: half + 1]), self._walk(plain[: half - 1 : -1])
+        ways = plain[: half + 1], plain[: half - 1 : -1]
+        first, last = (self._walk(way, watch) for way in ways)
         middle = min(first.pop(), last.pop(), key=lambda anchor: anchor.strain)
         return [*first, middle, *reversed(last)]
 
-    def _walk(self, plain: Sequence[Anchor]) -> list[Anchor]:
+    def _walk(self, plain: Sequence[Anchor], watch: Watch) -> list[Anchor]:
         """Return anchors, each settled from those before where it must be held."""
         anchors, clear = [plain[0]], True
         for last, anchor in pairwise(plain):
-            self._watch("in-between")
+            watch("in-between")
             stretch = self._stretch((last, anchor) if last.t < anchor.t else (anchor, last))
             pairs = stretch.pairs if clear and stretch is not None else None
             clear = (clear and stretch is None) or self._hold.free(anchor.wanted, pairs)
@@ -203,14 +204,14 @@ class SoundFrames:
             )
         return self._between[ends]
 
-    def _missing(self, anchors: Sequence[Anchor]) -> list[Anchor]:
+    def _missing(self, anchors: Sequence[Anchor], watch: Watch) -> list[Anchor]:
         """Return anchors in the middle of stretches where what is carried must be settled."""
         found = []
         for ends in filter(self._stretch, pairwise(anchors)):
             t = (ends[0].t + ends[1].t) / 2
             _, trouble = self._carried(t)
             if trouble is not None:
-                self._watch("in-between")
+                watch("in-between")
                 frame = self._settled(t, *trouble)
                 found.append(replace(self._plain_anchor(t), frame=frame, held=True))
         return found

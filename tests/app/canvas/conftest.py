@@ -187,7 +187,8 @@ def open_canvas(qtbot: QtBot, open_workspace: Callable[..., Workspace]) -> Calla
         canvas.resize(1200, 460)
         canvas.show()
         canvas.activateWindow()
-        qtbot.waitUntil(lambda: not workspace.solver.busy)
+        qtbot.waitUntil(lambda: not workspace.solver.busy and not workspace.inspector.busy)
+        QApplication.processEvents()  # all of that is shown
         if tool:
             canvas.set_tool(tool)
             qtbot.waitUntil(lambda: tool != "marks" or workspace.suggestions.current)
