@@ -7,6 +7,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QEvent, QObject, QRect, Qt, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QKeyEvent
 from PySide6.QtWidgets import (
+    QApplication,
     QFrame,
     QHBoxLayout,
     QLabel,
@@ -51,6 +52,8 @@ class MessageBar(QFrame):
         self._close.setAccessibleName(self.tr("Close message"))
         self._close.setToolTip(self.tr("Close message"))
         self._close.clicked.connect(self.dismiss)
+        for button in self._buttons:  # a click leaves the keys with what is worked on
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         row = QHBoxLayout(self)
         row.setContentsMargins(12, 8, 8, 8)
         row.setSpacing(10)
@@ -74,12 +77,15 @@ class MessageBar(QFrame):
         self._show(text, False, actions)
 
     def clear(self) -> None:
-        """Take the message away."""
+        """Take the message away; the keys go back to what it lay over."""
+        focused = QApplication.focusWidget()
+        if focused is not None and self.isAncestorOf(focused):
+            self.parentWidget().setFocus()
         self.hide()
 
     def dismiss(self) -> None:
         """Take the message away on the artist's wish."""
-        self.hide()
+        self.clear()
         self.closed.emit()
 
     def _show(self, text: str, error: bool, actions: tuple[Action, ...]) -> None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.application import watch_faults
@@ -258,3 +258,16 @@ def test_a_target_that_matches_far_better_mirrored_is_offered_once_and_mirrored_
     assert not window.messages.text
     session.undo()
     assert session.document is before
+
+
+@pytest.mark.parametrize("by", ["mouse", "keys"])
+def test_the_keys_stay_with_the_canvas_when_a_message_goes(window: MainWindow, by: str) -> None:
+    window.messages.show_info("Something happened.", ("Do it", window.messages.clear))
+    button = mends(window)["Do it"]
+    if by == "mouse":
+        QTest.mouseClick(button, LEFT)
+    else:
+        button.setFocus(Qt.FocusReason.TabFocusReason)
+        QTest.keyClick(button, Qt.Key.Key_Space)
+    assert not window.messages.text
+    assert window.canvas.isAncestorOf(QApplication.focusWidget())
