@@ -97,7 +97,7 @@ class SoundFrames:
         """
         self._ideal, self._turning, self._fit = ideal, turning, fit
         self._hold = Hold(fit, guard, contact)
-        self._between: dict[Ends, Stretch | None] = {}
+        self._known: dict[Ends, Stretch | None] = {}
         anchors = self._survey(watch)
         self._lay(anchors)
         for _ in range(LEVELS):
@@ -105,7 +105,7 @@ class SoundFrames:
                 break
             anchors = sorted([*anchors, *more], key=attrgetter("t"))
             self._lay(anchors)
-        self._between.clear()
+        self._known.clear()
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t."""
@@ -195,14 +195,12 @@ class SoundFrames:
 
     def _stretch(self, ends: Ends) -> Stretch | None:
         """Return the stretch between two anchors, or None where no frame can need to be settled."""
-        if ends not in self._between:
+        if ends not in self._known:
             frames = [(end.frame, end.wanted) for end in ends]
             pairs = self._hold.meeting(*(frame for frame, _ in frames))
             quiet = not len(pairs) and min(self._hold.margin(*each) for each in frames) > WATCHED
-            self._between[ends] = (
-                None if quiet else Stretch(ends, self._hold.leaving(frames), pairs)
-            )
-        return self._between[ends]
+            self._known[ends] = None if quiet else Stretch(ends, self._hold.leaving(frames), pairs)
+        return self._known[ends]
 
     def _missing(self, anchors: Sequence[Anchor], watch: Watch) -> list[Anchor]:
         """Return anchors in the middle of stretches where what is carried must be settled."""
