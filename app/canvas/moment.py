@@ -60,9 +60,7 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
         state = workspace.solver.state(layer.id, layer.span_at(frame)[0])
         return SpanState.SOLVED if patient and state is SpanState.SOLVING else state
 
-    late = {
-        other.id for other in document.layers if other.visible and _late(workspace, other, frame)
-    }
+    late = {other.id for other in document.moving if _late(workspace, other, frame)}
     stale = {
         other.id
         for other in document.layers
@@ -70,6 +68,11 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
         and state_of(other) is not SpanState.SOLVED
     }
     stale = frozenset(stale if patient else stale | late)
+    stale |= {
+        other.id
+        for other in document.layers
+        if not stale.isdisjoint(carrier.id for carrier in document.carriers(other))
+    }
     if layer is None or not layer.spans:
         return Moment(document, frame, layer, stale=stale)
     span, t = layer.span_at(frame)

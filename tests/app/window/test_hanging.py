@@ -14,6 +14,7 @@ from app.fields.choice import Choice
 from app.main_window import MainWindow
 from app.panels.layer_table import NAME
 from core.model import Document, Keyframe, Layer, Outline, RingPoint, Style
+from core.model.edits import replace_outline
 from core.morph.scene import picture_at
 from tests.app.canvas.conftest import Hand
 from tests.app.window.conftest import press
@@ -103,6 +104,19 @@ def test_a_propeller_hung_on_a_body_is_carried_and_a_key_made_there_turns_as_oft
     while space.session.document != before:
         press(window, "Ctrl+Z")
     assert seen(window, 25) == pytest.approx(nose(1), abs=1)
+
+
+def test_what_hangs_on_a_layer_that_is_not_solved_is_shown_as_stale(
+    flying: MainWindow, qtbot: QtBot
+) -> None:
+    space = flying.workspace
+    pick(flying.properties.layer.carrier, "body")
+    space.playhead.move_to(13)
+    qtbot.waitUntil(lambda: not moment_of(space).stale)
+    bow = Outline.polygon([(0, 0), (90, 90), (90, 0), (0, 91)])
+    marks = [RingPoint(0, 0.0)] * len(BODY)
+    space.session.apply("Cross it", replace_outline, 1, 1, bow, marks)
+    assert moment_of(space).stale == {1, 2}
 
 
 def test_a_hidden_body_still_carries(flying: MainWindow, qtbot: QtBot) -> None:
