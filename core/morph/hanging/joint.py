@@ -87,7 +87,7 @@ class MovingJoint:
         self._gaps = morph.rest[self._vertices] - self._start, morph.target[self._vertices] - end
         size = float(np.hypot(*np.ptp(morph.rest, axis=0)))
         slid = self._gaps[1] - self._gaps[0]
-        self._weights = _hinge(morph.rest[self._vertices], slid, CLOSE * size)
+        self._weights = hinge(morph.rest[self._vertices], slid, CLOSE * size)
         self._seen = self._seen_turn(self._carrier_turned(last, end))
         self._spins = self._extra_spins()
 
@@ -174,7 +174,7 @@ def _joined(points: Array, carrier: Run, frame: float) -> Indices:
     return on[:: 1 + len(on) // MOST_POINTS]
 
 
-def _hinge(points: Array, slid: Array, close: float) -> Array:
+def hinge(points: Array, slid: Array, close: float) -> Array:
     """Return weights (k,) of points (k, 2) that slide by so much (k, 2) on the carrier.
 
     Their mean so weighted is where nothing slides, if that is near: close to the points that slide

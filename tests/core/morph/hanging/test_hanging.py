@@ -7,12 +7,15 @@ from functools import cache
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from core.geometry.location import Located
 from core.model import Document, Easing, Keyframe, Layer, Outline, RingPoint, Turning
 from core.model.easing import EASE_IN_OUT, HOLD
 from core.model.edits import insert_keyframe
 from core.model.turning import AS_DRAWN
+from core.morph.hanging.joint import hinge
 from core.morph.scene import Span, carrying, keyframe_at, layer_rings, solve_span, span_of
 from tests.core.shapes import Array, ellipse, letter_l, limb, rotation
 
@@ -311,3 +314,18 @@ def test_what_passes_through_a_key_stays_joined_where_its_carrier_does_not_pass(
             moved = carrying(document, solved)(drawn, frame)(morph.at(s))
             places.append(there.interpolate(moved)[0])
         assert np.hypot(*(places[0] - places[1])) < 0.1
+
+
+@given(st.floats(0.5, 3), st.floats(-0.8, 0.8), st.floats(-0.8, 0.8))
+def test_a_hinge_is_where_nothing_slides_though_no_vertex_lies_there(angle, x, y):
+    points = 2 * np.stack(np.meshgrid(*[np.linspace(-1, 1, 7)] * 2), axis=-1).reshape(-1, 2)
+    pin = np.array([x, y])
+    slid = (points - pin) @ (rotation(angle) - np.eye(2)).T
+    weights = hinge(points, slid, 0.03 * 5)
+    assert weights.sum() == pytest.approx(1)
+    assert weights @ points == pytest.approx(pin, abs=0.05)
+
+
+def test_what_slides_as_a_whole_is_joined_evenly():
+    points = np.array([[0, 0], [2, 0], [2, 1], [0, 1]], dtype=float)
+    assert hinge(points, np.ones((4, 2)), 0.1) == pytest.approx(np.full(4, 0.25))
