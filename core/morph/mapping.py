@@ -33,6 +33,10 @@ from core.morph.report import Iteration, Stage
 from core.progress import Watch
 
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
+FEW = 0.05
+"""Part of the triangles that may be poor in a mesh that is changed only around them."""
+NARROW = 0.5
+"""Quality below which triangles may have been changed for the sake of poor ones beside them."""
 SLIGHTLY, COSTLY = 1.003, 1.03
 """How many times the distortion wider angles may take before the energy is brought down again, and
 after that."""
@@ -159,14 +163,18 @@ def _widened(found: Map, watch: Watch) -> Map:
 
 
 def _polished(found: Map, recipe: Recipe, watch: Watch) -> Map:
-    """Return a map at the minimum of the energy on a mesh that is even at both ends, its angles as
-    wide as is cheap there.
+    """Return a map at rest, its angles as wide as is cheap there.
+
+    Where many triangles are poor, all of the mesh is made even at both ends first.
     """
     log = _Log(found.stages)
-    joint = settle_both(improve(found.joint(), _max_area(recipe), watch), watch)
-    joint = settle_both(flip(joint, passes=3), watch)
+    joint = found.joint()
+    if np.mean(joint.worse < FAIR) > FEW:
+        joint = settle_both(improve(joint, _max_area(recipe), watch), watch=watch)
+        joint = settle_both(flip(joint, passes=3), watch=watch)
     if joint.worse.min() < FAIR:
-        joint = settle_both(widen(joint, watch=watch), watch)
+        joint = widen(joint, watch=watch)
+        joint = settle_both(joint, joint.worse < NARROW, watch)
     found = found.on(joint)
     if recipe.material == "st-venant-kirchhoff":
         settled = settle(found.mesh, found.target, recipe, watch)

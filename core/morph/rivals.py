@@ -19,6 +19,7 @@ from core.model import Recipe
 from core.model.outline import Array
 from core.morph.correspondence import Correspondence
 from core.morph.mapping import Map, direct_map, mended_map
+from core.morph.quality import crosses_itself
 from core.morph.report import Stage
 from core.morph.sliding import slide
 from core.progress import Watch
@@ -33,6 +34,8 @@ SLIDING, SLIDES = 1.12, 2
 """Mean distortion from which on the boundary may slide, and how often."""
 MENDABLE = 100.0
 """What a triangle counts at most: mending will put right what is worse, or folded."""
+SKETCH = 256
+"""Boundary vertices by which rivals are told apart: finer maps take longer, and say the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +83,10 @@ def choose(
         doubt = _doubt(rival, tried[0].rival if tried else rival)
         if tried and _cost(GOOD, _turn(*ends), doubt) >= min(each.cost for each in tried):
             continue
-        tried.append(_Tried(rival, ends, doubt, direct_map(*ends, recipe, watch)))
+        sketch = _sketched(ends)
+        rough = replace(recipe, density=min(recipe.density, SKETCH))
+        found = direct_map(*(sketch or ends), rough if sketch else recipe, watch)
+        tried.append(_Tried(rival, ends, doubt, found, sketched=sketch is not None))
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
     tried.sort(key=lambda each: each.cost)
@@ -103,6 +109,8 @@ class _Tried:
     ends: tuple[Rings, Rings]
     doubt: float
     map: Map
+    sketched: bool = False
+    """Whether the map is of a sketch of the ends."""
     final: bool = False
     """Whether the map has been mended."""
 
@@ -117,7 +125,7 @@ class _Tried:
 
     def finished(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried:
         """Return what it becomes: its boundary slid, as long as that helps, and its map mended."""
-        best = self.unfolded(recipe, watch)
+        best = self.drawn(recipe, watch).unfolded(recipe, watch)
         for _ in range(SLIDES):
             if not best.rival.proposed or not best.map.sound or best.map.mean < SLIDING:
                 break
@@ -140,6 +148,12 @@ class _Tried:
         direct = replace(direct, stages=(stage, *direct.stages))
         return _Tried(rival, ends, self.doubt, direct).unfolded(recipe, watch)
 
+    def drawn(self, recipe: Recipe, watch: Watch) -> _Tried:
+        """Return it with a map of the ends themselves."""
+        if not self.sketched:
+            return self
+        return replace(self, map=direct_map(*self.ends, recipe, watch), sketched=False)
+
     def unfolded(self, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it without folds."""
         return self if self.map.sound else self.mended(recipe, watch)
@@ -150,6 +164,15 @@ class _Tried:
             return self
         found = mended_map(self.map, *self.ends, recipe, watch)
         return replace(self, map=found, final=True)
+
+
+def _sketched(ends: tuple[Rings, Rings]) -> tuple[Rings, Rings] | None:
+    """Return every so many-th vertex of ends that have far more than needed, if that is sound."""
+    every = sum(map(len, ends[0])) // SKETCH
+    if every < 2 or min(map(len, ends[0])) < 3 * every:
+        return None
+    here, there = ([ring[::every] for ring in end] for end in ends)
+    return None if crosses_itself(here) or crosses_itself(there) else (here, there)
 
 
 def _cost(distortion: float, turn: float, doubt: float) -> float:

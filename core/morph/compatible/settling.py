@@ -8,6 +8,7 @@ triangles in the target, both ends share.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.fem.elements import Elements
 from core.fem.energies import Density, Fairness, InverseDirichlet, SymmetricDirichlet
@@ -27,26 +28,43 @@ from core.progress import Watch, unwatched
 ENOUGH = 0.36
 """Quality at which a triangle asks for no more: somewhat above what is fair."""
 FAIRNESS = Fairness(ENOUGH, weight=20.0)
+RINGS = 3
+"""How far around poor triangles vertices may move."""
 TURNS, STEPS = 2, 4
 """How often each end moves, and by how many of Newton's steps."""
 CONVERGED = 1e-4
 """Energy gained by a step, relative, below which an end rests."""
 
 
-def settle_both(mesh: JointMesh, watch: Watch = unwatched) -> JointMesh:
+def settle_both(
+    mesh: JointMesh, around: NDArray[np.bool_] | None = None, watch: Watch = unwatched
+) -> JointMesh:
     """Return a mesh with its inner vertices at rest at both ends; it must have no fold.
 
+    If triangles ``around`` (m,) are given, only vertices within ``RINGS`` of them move.
     ``watch(stage)`` is called before every step and may raise ``Cancelled``.
     """
-    free = np.arange(mesh.boundary_size, len(mesh.points))
+    near = np.ones(len(mesh.points), bool) if around is None else _neighbourhood(mesh, around)
+    near[: mesh.boundary_size] = False
+    free = np.flatnonzero(near)
     if not len(free):
         return mesh
     source, target = mesh.end(0), mesh.end(1)
-    vertices = FreeVertices(Elements.of(source, mesh.triangles), free)
+    triangles = mesh.triangles[near[mesh.triangles].any(axis=1)]
+    vertices = FreeVertices(Elements.of(source, triangles), free)
     for _ in range(TURNS):
         target = _settled(vertices, target, source, SymmetricDirichlet(), watch)
         source = _settled(vertices, source, target, InverseDirichlet(), watch)
     return mesh.moved(np.stack([end @ [1, 1j] for end in (source, target)], axis=1))
+
+
+def _neighbourhood(mesh: JointMesh, around: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return (n,) which vertices lie within a few rings of triangles (m,)."""
+    near = np.zeros(len(mesh.points), bool)
+    near[mesh.triangles[around]] = True
+    for _ in range(RINGS):
+        near[mesh.triangles[near[mesh.triangles].any(axis=1)]] = True
+    return near
 
 
 def _settled(

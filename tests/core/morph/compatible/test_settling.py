@@ -55,4 +55,15 @@ def test_settling_can_be_cancelled() -> None:
         raise Cancelled
 
     with pytest.raises(Cancelled):
-        settle_both(cleaned("comb and square"), cancel)
+        settle_both(cleaned("comb and square"), watch=cancel)
+
+
+def test_only_vertices_near_the_triangles_that_are_told_move() -> None:
+    before = cleaned("comb and square")
+    around = np.zeros(len(before.triangles), bool)
+    around[before.worse.argmin()] = True
+    after = settle_both(before, around)
+    moved = (after.points != before.points).any(axis=1)
+    assert 0 < np.count_nonzero(moved) < 60
+    assert moved[before.triangles[around]][before.triangles[around] >= before.boundary_size].all()
+    check_joint(after, "comb and square")

@@ -1,0 +1,63 @@
+"""Rivals are compared by sketches of themselves where their outlines have very many vertices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.model import Recipe
+from core.model.outline import Array
+from core.morph import rivals
+from core.morph.boundary import BoundaryPair
+from core.morph.correspondence import Correspondence, Matching
+from core.morph.mapping import Map
+from core.morph.rivals import SKETCH, Choice, Frame, choose
+from core.progress import unwatched
+from tests.core.morph.polygons import comb, disc
+
+FRAMES = (Frame(np.zeros(2), 1.0), Frame(np.zeros(2), 1.0))
+COUNT = 5 * SKETCH
+
+
+def chosen(*targets: Array) -> Choice:
+    """Choose among ways to map a comb."""
+    source = comb(3, COUNT)
+    ways = [
+        Correspondence(Matching(()), [BoundaryPair(source, target)], (0.1, 0.1), ())
+        for target in targets
+    ]
+    return choose(ways, FRAMES, Recipe(), unwatched)
+
+
+def test_the_better_of_two_finely_drawn_rivals_is_taken_and_mapped_with_all_its_vertices() -> None:
+    good = comb(3, COUNT)
+    choice = chosen(np.roll(good, COUNT // 7, axis=0), good)
+    assert choice.tried == 2
+    assert choice.taken.boundaries[0].target is good
+    assert np.array_equal(choice.map.target[:COUNT], good)
+    assert choice.map.mean == pytest.approx(1, abs=1e-6)
+
+
+def test_only_the_rival_that_is_taken_is_mapped_with_all_its_vertices(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sizes: list[int] = []
+
+    def direct_map(source: list[Array], *rest: object) -> Map:
+        sizes.append(len(source[0]))
+        return original(source, *rest)  # type: ignore[arg-type]
+
+    original = rivals.direct_map
+    monkeypatch.setattr(rivals, "direct_map", direct_map)
+    good = comb(3, COUNT)
+    chosen(np.roll(good, COUNT // 7, axis=0), good)
+    assert sizes == [SKETCH, SKETCH, COUNT]
+
+
+def test_a_sketch_that_would_cross_itself_is_not_used() -> None:
+    """Every fifth vertex of this disc lies far outside on the wrong side."""
+    turned = disc(COUNT).copy()
+    turned[5::10] *= -0.9
+    assert rivals._sketched(([disc(COUNT)], [turned])) is None
+    assert rivals._sketched(([disc(COUNT)], [disc(COUNT)])) is not None
+    assert rivals._sketched(([disc(40)], [disc(40)])) is None
