@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from app.canvas.canvas import Canvas
 from app.files.files import Files
+from app.jobs.solver import SpanState
 from app.panels.messages import Action, MessageBar
 from app.workspace import Workspace
 from core.errors import FileError, MarkError, MorphError, OutlineError, Repair, Trouble, Where
@@ -45,6 +46,8 @@ class Reporter(QObject):
         self._workspace, self._canvas, self._files, self._bar = workspace, canvas, files, bar
         self._shown: _Shown | None = None
         """The solver's error on show."""
+        self._in_view: Key | None = None
+        """The span that was in view when that was decided."""
         self._dismissed: MorphError | None = None
         self._offered: Span | None = None
         """The span whose target was offered to be mirrored last."""
@@ -60,6 +63,7 @@ class Reporter(QObject):
         workspace.solver.updated.connect(self._follow_soon)
         workspace.selection.changed.connect(self._follow_soon)
         workspace.playhead.moved.connect(self._on_playhead_moved)
+        workspace.playhead.playing_changed.connect(self._on_playhead_moved)
         files.failed.connect(self.show_refusal)
         files.noted.connect(self.note)
         bar.closed.connect(self._on_closed)
@@ -100,7 +104,11 @@ class Reporter(QObject):
         self._told.clear()
 
     def _on_playhead_moved(self) -> None:
-        if not self._workspace.playhead.playing:  # what plays is looked at, not worked on
+        """Follow to another span, unless it plays: what plays is looked at, not worked on."""
+        layer = self._workspace.selection.layer
+        if layer is None or self._workspace.playhead.playing:
+            return
+        if self._in_view != (layer.id, self._span_in_view(layer)):
             self._follow_soon()
 
     def _follow_soon(self) -> None:
@@ -108,6 +116,8 @@ class Reporter(QObject):
 
     def _follow_solver(self) -> None:
         """Show the most pressing error of the solver, or take it away when it is gone."""
+        layer = self._workspace.selection.layer
+        self._in_view = layer and (layer.id, self._span_in_view(layer))
         if self._passing:
             return
         key = self._most_pressing()
@@ -159,8 +169,10 @@ class Reporter(QObject):
         layer = self._workspace.selection.layer
         if layer is None or not layer.spans or self._workspace.session.dragging:
             return None
-        index = self._span_in_view(layer)
-        morph = self._workspace.solver.solutions().get(span_of(layer, index))
+        index, solver = self._span_in_view(layer), self._workspace.solver
+        if solver.state(layer.id, index) is not SpanState.SOLVED:
+            return None
+        morph = solver.morph_of(span_of(layer, index))
         return None if morph is None else (layer, index, morph)
 
     def _tell_repairs(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -75,6 +76,10 @@ class Ring:
         )
 
     def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
         return hash((self.points + 0.0).tobytes())  # −0 equals 0, and must hash alike
 
     def _arrays(self) -> tuple[Array, Array, Array]:
