@@ -18,6 +18,7 @@ from core.model.recipe import Method
 from core.morph.motion.motion import Motion
 from core.morph.pipeline import solve_outlines
 from core.morph.quality import folds, smallest_angle
+from tests.benchmarks.corners import allowed_angle
 from tests.benchmarks.drift import Drift
 from tests.benchmarks.given_marks import GivenMarks
 from tests.benchmarks.pairs import Pair, Rings
@@ -28,6 +29,8 @@ BESIDE: dict[str, Method] = {"straight paths": "linear", "lengths and angles": "
 UNSEEN = 5e-4
 """How much a vertex's step may change from frame to frame without anybody seeing it: a quarter of a
 pixel on a shape 500 pixels across. Where the plain form changes less, ratios would mean little."""
+FAIR_ANGLE = 10.0
+"""Degrees that no angle of a mesh should be below."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,8 @@ class Row:
     angle_source: float
     """The smallest, in degrees."""
     angle_target: float
+    angle_allowed: float
+    """No mesh has a larger one, because of the outlines' corners."""
     repairs: int
     """Changes to the outlines so that they could be used; without any, ends are exact."""
     tried: int
@@ -75,6 +80,11 @@ class Row:
     def crossing(self) -> tuple[float, ...]:
         """Moments at which our boundary crosses itself."""
         return self.drifts[OWN].crossing
+
+    @property
+    def angle_share(self) -> float:
+        """The smallest angle at either end over what it should be: 10°, if corners allow that."""
+        return min(self.angle_source, self.angle_target) / min(FAIR_ANGLE, self.angle_allowed)
 
     @property
     def jolt_ratio(self) -> float:
@@ -123,6 +133,7 @@ def measure(pair: Pair, frames: int, recipe: Recipe | None = None) -> tuple[Row,
         distortion_worst=report.distortion_worst,
         angle_source=np.degrees(smallest_angle(motion[0], morph.triangles)),
         angle_target=np.degrees(smallest_angle(motion[-1], morph.triangles)),
+        angle_allowed=allowed_angle(*(outline(motion[k], morph) for k in (0, -1))),
         repairs=len(report.repairs),
         tried=report.tried,
         mirror=report.mirror,

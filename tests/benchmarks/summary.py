@@ -29,6 +29,8 @@ LARGE: dict[str, Quantity] = {
 SMALL: dict[str, Quantity] = {
     "smallest angle, source": lambda row: row.angle_source,
     "smallest angle, target": lambda row: row.angle_target,
+    "  that corners allow": lambda row: row.angle_allowed,
+    "  over 10° or the allowed": lambda row: row.angle_share,
 }
 """Quantities that are better the larger they are."""
 MILLISECONDS: dict[str, Quantity] = {

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from core.model import Outline, RingPoint
+from tests.benchmarks.corners import allowed_angle
 from tests.benchmarks.drift import Drift, deviation
 from tests.benchmarks.given_marks import solve_given_marks, with_one_moved
 from tests.benchmarks.measures import OWN, end_error, jolt, measure
@@ -51,6 +52,17 @@ def test_a_moved_mark_goes_part_of_the_way_to_the_next_one_on_its_ring():
     moved = with_one_moved([(start, image) for image in images], target)
     assert [b.at for _, b in moved] == [pytest.approx(5.2), 5.1, 3.0, 1.0]  # 2 of 6 nodes to go
     assert [b.ring for _, b in moved] == [0, 1, 0, 0]
+
+
+def test_the_sharpest_corner_bounds_the_angles_of_every_mesh():
+    square = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
+    sharp = np.array([[0.0, 0], [4, 0], [4, 4], [3.9, 0.05]])
+    assert allowed_angle([square], [square]) == pytest.approx(45)
+    beta, reflex = np.degrees(np.arctan2(0.05, 3.9)), 360 - np.degrees(np.arctan2(3.9, 0.1))
+    assert reflex > 180  # the corner opposite needs two triangles
+    assert allowed_angle([sharp], [sharp]) == pytest.approx(beta)
+    # what is reflex at one end is shared by two triangles at the other
+    assert allowed_angle([sharp], [np.roll(sharp, 1, axis=0)]) < beta
 
 
 def test_the_end_error_sees_a_missed_vertex_and_one_that_left_the_outline():

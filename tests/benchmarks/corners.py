@@ -1,0 +1,35 @@
+"""The widest that the smallest angle of any mesh can be, as far as the outlines' corners decide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.geometry.polyline import cross
+
+MOST_TRIANGLES = 6
+"""At one corner: a full turn of equilateral ones."""
+
+
+def allowed_angle(source: Sequence[np.ndarray], target: Sequence[np.ndarray]) -> float:
+    """Return the bound in degrees, of corresponding rings (k, 2), holes clockwise.
+
+    A corner with the inner angles α and β in source and target, α ≤ β, that k triangles share has
+    one of at most α / k. And β / k, if it is wide, leaves (180° − β / k) / 2 to the other two
+    corners of one of them. The mesh may choose k, but it is the same at both ends.
+    """
+    bounds = []
+    for ends in zip(source, target, strict=True):
+        angles = np.array([_inner_angles(ring) for ring in ends])
+        narrow, wide = angles.min(axis=0), angles.max(axis=0)
+        k = np.arange(1, MOST_TRIANGLES + 1)[:, None]
+        bounds.append(np.minimum(narrow / k, (180 - wide / k) / 2).max(axis=0))
+    return float(np.concatenate(bounds).min())
+
+
+def _inner_angles(ring: np.ndarray) -> np.ndarray:
+    """Return (k,) degrees, in [0, 360)."""
+    after, before = np.roll(ring, -1, axis=0) - ring, np.roll(ring, 1, axis=0) - ring
+    angle = np.arctan2(cross(after, before), np.einsum("ki,ki->k", after, before))
+    return np.degrees(angle) % 360
