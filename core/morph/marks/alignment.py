@@ -15,6 +15,9 @@ ROTATIONS = 36
 """Rotations that are tried to lay one area on another."""
 UPRIGHT = 0.02
 """What a half turn counts for, as a misfit."""
+WORSE, LITTLE = 1.5, 0.4
+"""The most upright way is followed unless it is so many times worse than the best, both misfits
+counted from a little below zero: samples that miss the tips of petals may cost that much."""
 AS_GOOD = 0.98
 """Shifts are as good as the best when they correlate at least so well."""
 
@@ -99,11 +102,21 @@ def overlays(
     shrink, grow = _to_unit_area(source), _to_unit_area(target)
     misfits = turn_misfits(here, there) + direction_misfits(here, rotations, there)
     misfits += position_misfits(rotations * shrink(here.points), grow(there.points))
-    closeness = -misfits.min(axis=2).mean(axis=1) - misfits.min(axis=1).mean(axis=1)
+    away = misfits.min(axis=2).mean(axis=1) + misfits.min(axis=1).mean(axis=1)
+    lean = leaning(rotations[:, 0])
+    best = peaks(-away - lean, ROTATIONS)
+    straight = best[np.argmin(lean[best])]
+    tried = best[:most]
+    if straight not in tried and not far_worse(away[straight], away.min()):
+        tried = np.append(tried, straight)
     return [
-        Fit(shrink.here, grow.here, rotations[k, 0] * shrink.factor / grow.factor)
-        for k in peaks(closeness - leaning(rotations[:, 0]), most)
+        Fit(shrink.here, grow.here, rotations[k, 0] * shrink.factor / grow.factor) for k in tried
     ]
+
+
+def far_worse(misfit: float, best: float) -> bool:
+    """Whether one way to lay a contour on another need not be followed, upright as it may be."""
+    return misfit + LITTLE > WORSE * (best + LITTLE)
 
 
 def leaning(rotation: Complex) -> Array:

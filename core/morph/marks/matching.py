@@ -14,7 +14,16 @@ import numpy as np
 
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.marks.alignment import Fit, fit, fit_limbs, leaning, overlays, peaks, shifts
+from core.morph.marks.alignment import (
+    Fit,
+    far_worse,
+    fit,
+    fit_limbs,
+    leaning,
+    overlays,
+    peaks,
+    shifts,
+)
 from core.morph.marks.chain import Pair
 from core.morph.marks.contour import Complex, Contour, Samples, gap
 from core.morph.marks.elastic import cheapest_paths
@@ -226,18 +235,27 @@ def _bent(side: _Side, pins: Indices) -> list[_Guess]:
 
 
 def _cheapest(here: Samples, guesses: Sequence[_Guess], slack: int, watch: Watch) -> list[_Path]:
-    """Find the cheapest path of each guess; of those that are alike the cheapest stays."""
+    """Find the cheapest path of each guess; of those that are alike the cheapest stays.
+
+    The most upright one stays in any case, unless it is far worse.
+    """
     watch("matching")
     knots, costs = _paths(here, guesses, slack)
     found: list[_Path] = []
     leanings = np.array([guess.leaning for guess in guesses])
-    for k in np.argsort(costs + leanings, kind="stable"):
+    order = np.argsort(costs + leanings, kind="stable")
+    plain = [k for k in order if not guesses[k].side.mirrored]
+    upright = min(plain, key=leanings.__getitem__)
+    if far_worse(costs[upright], costs[plain].min()):
+        upright = order[0]
+    for k in order:
         path = _Path(guesses[k], knots[k], float(costs[k]))
         mirrored = path.guess.side.mirrored
         rivals = [other for other in found if other.guess.side.mirrored == mirrored]
         if mirrored and len(rivals) < len(found):
             continue  # a mirror is worth nothing unless it is better than all that is not
-        if len(rivals) < KEPT and all(_apart(path, other) > ALIKE for other in rivals):
+        wanted = len(rivals) < KEPT or k == upright
+        if wanted and all(_apart(path, other) > ALIKE for other in rivals):
             found.append(path)
     return found
 

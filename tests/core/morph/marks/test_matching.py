@@ -184,3 +184,18 @@ def test_a_known_rotation_decides_between_equals():
 def test_rings_that_enclose_nothing_have_no_match(ring):
     assert match_rings(ring, letter_l()) == []
     assert match_rings(letter_l(), ring) == []
+
+
+def test_among_the_matches_of_a_flower_is_the_one_that_does_not_turn_it():
+    petals, angle = 7, np.linspace(0, 2 * np.pi, 180, endpoint=False)
+    longer = [np.cos(angle - 2 * np.pi * k / petals) for k in (0, 3)]  # not the same petals
+    radii = [1 + 0.35 * np.cos(petals * angle) + 0.08 * side for side in longer]
+    rings = [np.column_stack([r * np.cos(angle), r * np.sin(angle)]) for r in radii]
+    lengths = [arc_lengths(ring)[-1] for ring in rings]
+    at = np.arange(50) / 50
+    off = [
+        np.mod(match.images(at * lengths[0]) / lengths[1] - at + 0.5, 1) - 0.5
+        for match in match_rings(*rings)
+        if not match.mirrored
+    ]
+    assert min(np.abs(each).max() for each in off) < 0.5 / petals
