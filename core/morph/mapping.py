@@ -33,8 +33,9 @@ from core.morph.report import Iteration, Stage
 from core.progress import Watch
 
 TRIANGLES_PER_BOUNDARY_VERTEX = 4
-FEW = 0.05
-"""Part of the triangles that may be poor in a mesh that is changed only around them."""
+FEW, MANY = 0.05, 0.1
+"""Parts of the triangles: if no more are poor, the mesh is changed only around them; if more are
+still poor in an even mesh, more triangles would not help."""
 NARROW = 0.5
 """Quality below which triangles may have been changed for the sake of poor ones beside them."""
 SLIGHTLY, COSTLY = 1.003, 1.03
@@ -172,7 +173,7 @@ def _polished(found: Map, recipe: Recipe, watch: Watch) -> Map:
     if np.mean(joint.worse < FAIR) > FEW:
         joint = settle_both(improve(joint, _max_area(recipe), watch), watch=watch)
         joint = settle_both(flip(joint, passes=3), watch=watch)
-    if joint.worse.min() < FAIR:
+    if 0 < np.mean(joint.worse < FAIR) <= MANY:
         joint = widen(joint, watch=watch)
         joint = settle_both(joint, joint.worse < NARROW, watch)
     found = found.on(joint)
