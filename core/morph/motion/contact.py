@@ -130,6 +130,37 @@ class Contact:
         return np.minimum(REACH, LEFT_ALONE * least)
 
 
+class NoContact(Contact):
+    """A boundary that may cross itself."""
+
+    def __init__(self) -> None:
+        """There is nothing to prepare."""
+
+    def leaving(self, *frames: Complex) -> Self:
+        """Return the same."""
+        return self
+
+    def crosses(self, z: Complex) -> bool:
+        """Say that it need not be known."""
+        return False
+
+    def corners(self, pairs: Indices) -> Indices:
+        """Return those of no pair."""
+        return np.empty((0, 3), dtype=int)
+
+    def near(self, z: Complex, within: float, among: Indices | None = None) -> Indices:
+        """Return no pair."""
+        return np.empty(0, dtype=int)
+
+    def meeting(self, here: Complex, there: Complex) -> Indices:
+        """Return no pair."""
+        return np.empty(0, dtype=int)
+
+    def gaps(self, pairs: Indices, vertices: Indices) -> Distances:
+        """Return no gap."""
+        return Distances(self.corners(pairs), np.empty(0), np.empty(0))
+
+
 @dataclass(frozen=True, eq=False)
 class Distances:
     """Distances of points from edges, in units of those at which they are felt."""

@@ -18,7 +18,7 @@ import numpy as np
 from core.geometry.rotation import Complex, phasor, to_complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.motion.contact import Contact, aligned
+from core.morph.motion.contact import Contact, NoContact, aligned
 from core.morph.motion.departures import Departures
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import determinant
@@ -32,6 +32,8 @@ SHORTEST_STEP = 1 / 32
 """Of the walk from one moment to the next, which is made in parts where the way is far."""
 LEVELS = 2
 """How often a stretch is halved where what is carried between its anchors does not do."""
+MEETING = 0.01
+"""How close two walks are halfway that are one motion, at unit area. Others differ by far more."""
 WATCHED = 0.6
 """Between moments with a margin above this, frames are not checked for folds."""
 
@@ -98,7 +100,11 @@ class SoundFrames:
         self._ideal, self._turning, self._fit = ideal, turning, fit
         self._hold = Hold(fit, guard, contact)
         self._known: dict[Ends, Stretch | None] = {}
-        anchors = self._survey(watch)
+        anchors, met = self._survey(watch)
+        if not met:
+            self._hold = Hold(fit, guard, NoContact())
+            self._known.clear()
+            anchors, _ = self._survey(watch)
         self._lay(anchors)
         for _ in range(LEVELS):
             if not (more := self._missing(anchors, watch)):
@@ -143,17 +149,20 @@ class SoundFrames:
 
     # -- the survey ----------------------------------------------------------------------------
 
-    def _survey(self, watch: Watch) -> list[Anchor]:
-        """Return anchors, settled from both ends towards the middle.
+    def _survey(self, watch: Watch) -> tuple[list[Anchor], bool]:
+        """Return anchors, and whether the walks from both ends meet in the middle.
 
-        So the swapped motion goes the same way back.
+        So the swapped motion goes the same way back. Where the walks do not meet, limbs that hold
+        each other off must pass one another, which contact would only let them do in a jump.
         """
         plain = [self._plain_anchor(float(t)) for t in np.linspace(0, 1, SURVEY + 1)]
         half = SURVEY // 2
         ways = plain[: half + 1], plain[: half - 1 : -1]
         first, last = (self._walk(way, watch) for way in ways)
-        middle = min(first.pop(), last.pop(), key=lambda anchor: anchor.strain)
-        return [*first, middle, *reversed(last)]
+        halfway = first.pop(), last.pop()
+        apart = np.abs(halfway[1].frame - halfway[0].frame).max()
+        middle = min(halfway, key=lambda anchor: anchor.strain)
+        return [*first, middle, *reversed(last)], bool(apart < MEETING)
 
     def _walk(self, plain: Sequence[Anchor], watch: Watch) -> list[Anchor]:
         """Return anchors, each settled from those before where it must be held."""

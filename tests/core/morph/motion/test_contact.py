@@ -13,6 +13,7 @@ import core
 from core.morph.motion.barrier import Gaps, barrier
 from core.morph.motion.contact import REACH, Contact
 from core.morph.quality import crosses_itself, folds
+from core.morph.soundness import check_frame
 from tests.core.shapes import Array, ellipse, letter_l, rotation
 
 TIMES = np.linspace(0, 1, 33)
@@ -43,7 +44,7 @@ def solve(source: Array, target: Array) -> core.Morph:
 UNCURLING = prongs(-4.2, 4.2), prongs(-0.2, 0.5)
 """Curled up as well as stretched out they are clear of each other, but not on the way."""
 SWAPPING = prongs(-4.2, 0, 3), prongs(0, 4.2, 3)
-"""The left one reaches over the right one at first, under it at last."""
+"""The left one reaches over the right one at first, under it at last: they must pass."""
 
 
 def crossing(morph: core.Morph, frames: list[Array]) -> int:
@@ -55,9 +56,8 @@ def plain_frames(morph: core.Morph) -> list[Array]:
     return [shape.fit(shape.ideal(t)) for t in TIMES]
 
 
-@pytest.mark.parametrize("ends", [UNCURLING, SWAPPING], ids=["uncurling", "swapping"])
-def test_limbs_that_would_cross_on_the_way_are_kept_apart(ends):
-    morph = solve(*ends)
+def test_limbs_that_would_cross_on_the_way_are_kept_apart():
+    morph = solve(*UNCURLING)
     assert crossing(morph, plain_frames(morph)) >= 4
     frames = [morph.at(t) for t in TIMES]
     assert crossing(morph, frames) == 0
@@ -88,20 +88,35 @@ def test_frames_in_contact_do_not_depend_on_the_order_they_are_asked_in():
         assert np.array_equal(second.at(TIMES[k]), forward[k])
 
 
-def test_limbs_in_contact_move_without_a_jump():
-    morph = solve(*UNCURLING)
+def speed(motion: Callable[[float], Array], steps: int) -> float:
+    """Return that of the fastest vertex between neighbouring frames."""
+    frames = [motion(t) for t in np.linspace(0, 1, steps + 1)]
+    centred = [frame - frame.mean(axis=0) for frame in frames]
+    return steps * max(np.abs(b - a).max() for a, b in pairwise(centred))
+
+
+@pytest.mark.parametrize("ends", [UNCURLING, SWAPPING], ids=["uncurling", "swapping"])
+def test_limbs_that_meet_move_without_a_jump(ends):
+    morph = solve(*ends)
     shape = morph.inbetween.shape
     assert crossing(morph, plain_frames(morph)) >= 4
-
-    def speed(motion: Callable[[float], Array], steps: int) -> float:
-        frames = [motion(t) for t in np.linspace(0, 1, steps + 1)]
-        centred = [frame - frame.mean(axis=0) for frame in frames]
-        return steps * max(np.abs(b - a).max() for a, b in pairwise(centred))
-
     plain = speed(lambda t: shape.fit(shape.ideal(t)), 256)
     coarse, fine = (speed(shape, steps) for steps in (256, 1024))
     assert coarse < 1.5 * plain
     assert fine < 1.1 * coarse  # a jump would be four times as fast
+
+
+def test_limbs_that_must_pass_one_another_cross_and_it_is_told_where():
+    morph = solve(*SWAPPING)
+    crossed = 0
+    for k, s in enumerate(TIMES):
+        frame = morph.at(s)
+        found = check_frame(k, morph, frame)
+        assert found.folds == 0
+        assert len(found.places) == found.crossings
+        assert bool(found.crossings) == crosses_itself([frame[ring] for ring in morph.rings])
+        crossed += found.crossings > 0
+    assert 0 < crossed < len(TIMES) / 2
 
 
 def test_limbs_within_a_hole_are_kept_apart_too():

@@ -72,15 +72,15 @@ class Case:
             not np.array_equal(shape(t), shape.fit(shape.ideal(t))) for t in np.linspace(0, 1, 17)
         )
 
-    def unsound(self, frames: int) -> list[float]:
-        """Return the moments at which something folds or crosses itself."""
-        morph = self.morph
-        return [
-            s
-            for s in np.linspace(0, 1, frames)
-            for x in [morph.at(s)]
-            if len(folds(x, morph.triangles)) or crosses_itself([x[ring] for ring in morph.rings])
-        ]
+    def folded(self, frames: int) -> int:
+        """Count the frames in which something folds."""
+        motion = map(self.morph.at, np.linspace(0, 1, frames))
+        return sum(len(folds(x, self.morph.triangles)) > 0 for x in motion)
+
+    def crossing(self, frames: int) -> int:
+        """Count the frames that cross themselves."""
+        moments = np.linspace(0, 1, frames)
+        return sum(crosses_itself(rings_at(self.morph, s)) for s in moments)
 
     def abruptness(self, frames: int) -> float:
         """Return how much more abruptly velocities change than in the plain form."""
@@ -117,7 +117,7 @@ def test_limbs_that_would_cross_are_held_so_that_what_follows_means_something():
 
 
 def test_no_frame_folds_or_crosses_itself(case: Case):
-    assert not case.unsound(129)
+    assert case.folded(129) == case.crossing(129) == 0
 
 
 def test_no_frame_jumps_however_close_the_frames(case: Case):
@@ -186,20 +186,25 @@ def failing(cases: Iterable[Case], law: Callable[[Case], bool]) -> list[str]:
 
 
 FEW = 4
-"""Pairs whose limbs must pass one another, or press so hard that they come to rest by chance."""
+"""Pairs that press so hard on themselves that they come to rest by chance."""
+FRAMES = 33
+CROSSING = 1e-3
+"""Share of frames that may cross, where limbs must pass one another."""
 
 
 @pytest.mark.sweep
 @pytest.mark.timeout(1800)
-def test_no_frame_of_any_pair_folds_or_crosses_itself(cases: list[Case]):
-    assert failing(cases, lambda case: not case.unsound(33)) == []
+def test_no_frame_of_any_pair_folds_and_next_to_none_crosses(cases: list[Case]):
+    assert failing(cases, lambda case: not case.folded(FRAMES)) == []
+    counts = {case.pair.name: case.crossing(FRAMES) for case in cases}
+    crossed = {name: count for name, count in counts.items() if count}
+    assert sum(crossed.values()) <= CROSSING * FRAMES * len(cases), crossed
 
 
 @pytest.mark.sweep
 @pytest.mark.timeout(1800)
-def test_next_to_no_pair_jumps(cases: list[Case]):
-    jumping = failing(cases, lambda case: case.abruptness(257) < ABRUPT)
-    assert len(jumping) <= FEW, jumping
+def test_no_pair_jumps(cases: list[Case]):
+    assert failing(cases, lambda case: case.abruptness(257) < ABRUPT) == []
 
 
 @pytest.mark.sweep
