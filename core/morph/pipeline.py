@@ -23,8 +23,11 @@ from core.morph.morph import Morph
 from core.morph.motion.motion import Motion
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report, Stage
-from core.morph.rivals import GOOD, Frame, choose
+from core.morph.rivals import Frame, choose
 from core.progress import Progress, Watch, silent
+
+POOR = 1.2
+"""Mean distortion above which it is worth telling that the target matches far better mirrored."""
 
 
 def solve_outlines(
@@ -76,7 +79,7 @@ def solve_outlines(
         iterations=found.iterations,
         stages=_stages(clock, ends, found, choice.tried, recipe),
         tried=choice.tried,
-        mirror=taken.matching.mirror and found.mean > GOOD,
+        mirror=taken.matching.mirror and found.mean > POOR,
         repairs=ends[0].repairs + ends[1].repairs,
         proposed=unplace_marks(taken.proposed, (source, target), ends),
     )

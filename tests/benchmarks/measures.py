@@ -75,6 +75,14 @@ class Row:
     drifts: dict[str, Drift]
     """Our motion and the others, by name."""
     given: GivenMarks | None = None
+    distortion_mirrored: float | None = None
+    """The mean distortion of the map to the mirrored target, where that was offered."""
+
+    @property
+    def distortion_accepted(self) -> float:
+        """The mean distortion for an artist who takes the mirror wherever it is offered."""
+        mirrored = self.distortion_mirrored
+        return self.distortion_mean if mirrored is None else mirrored
 
     @property
     def crossing(self) -> tuple[float, ...]:

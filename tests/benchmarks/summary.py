@@ -20,6 +20,7 @@ LARGE: dict[str, Quantity] = {
     "end error": lambda row: row.end_error,
     "jump at the ends": lambda row: row.end_jump,
     "SD mean": lambda row: row.distortion_mean,
+    "  with mirrors offered": lambda row: row.distortion_accepted,
     "SD worst triangle": lambda row: row.distortion_worst,
     "correspondences tried": lambda row: row.tried,
     "change of velocity": lambda row: row.jolt,

@@ -12,6 +12,7 @@ import numpy as np
 
 import core
 from core.model import Recipe
+from core.morph.pipeline import solve_outlines
 from core.morph.quality import crosses_itself, folds
 from tests.benchmarks.drift import Drift
 from tests.benchmarks.flubber import Flubber
@@ -60,6 +61,9 @@ def survey(plan: Plan, pair: Pair) -> Surveyed | Refused:
         return Refused(pair.name, str(error))
     if plan.flubber is not None and len(morph.rings) == 1:  # it knows no holes
         row = replace(row, drifts=row.drifts | {"flubber": _flubbered(plan, plan.flubber, pair)})
+    if row.mirror:
+        mirrored = solve_outlines(pair.source, pair.target.mirrored(), recipe=plan.recipe)
+        row = replace(row, distortion_mirrored=mirrored.report.distortion_mean)
     if plan.given_marks and morph.report.proposed:
         row = replace(row, given=solve_given_marks(pair, morph.report, plan.recipe))
     return Surveyed(row, list(panels(row, morph)))

@@ -18,8 +18,10 @@ from PySide6.QtGui import QImage
 from tests.benchmarks import sweep
 from tests.benchmarks.measures import OWN, measure
 from tests.benchmarks.sheet import TITLE
-from tests.benchmarks.survey import Plan
+from tests.benchmarks.summary import summary
+from tests.benchmarks.survey import Plan, survey
 
+FLAG = np.array([[0, 0], [1, 0], [5, 1], [5, 3], [1, 2.5], [1, 8], [0, 8]])
 NOWHERE = Outline.polygon(np.full((3, 2), np.nan))
 
 
@@ -66,6 +68,15 @@ def test_the_sheets_show_every_pair_and_the_worst_first(swept):
     first, second = ((0, y, sheet.width(), sweep.SIDE + TITLE) for y in (0, sweep.SIDE + TITLE))
     assert worst.copy(*first) == sheet.copy(*second)
     assert worst.copy(*second) == sheet.copy(*first)
+
+
+def test_where_a_mirror_is_offered_the_distortion_with_it_is_measured_too():
+    flag = Outline.polygon(FLAG)
+    found = survey(Plan(frames=3), Pair("flag → mirrored", flag, flag.mirrored()))
+    assert found.row.mirror
+    assert found.row.distortion_mean > 1.3
+    assert found.row.distortion_accepted == pytest.approx(1)
+    assert "  with mirrors offered" in summary([found.row], [])
 
 
 def test_without_the_outlines_the_command_says_so_and_fails(monkeypatch, tmp_path, capsys):
