@@ -25,10 +25,7 @@ class Artboard(QGraphicsItem):
 
     def show_board(self, size: tuple[float, float], background: str) -> None:
         """Set its size and colour."""
-        rect = QRectF(0, 0, *size)
-        if (rect, background) != (self._rect, self._background):
-            self._rect, self._background = rect, background
-            self.update()
+        self._rect, self._background = QRectF(0, 0, *size), background
 
     def boundingRect(self) -> QRectF:
         """Return everything."""

@@ -43,7 +43,6 @@ class Artwork(QGraphicsItem):
             )
             for shape in shapes
         ]
-        self.update()
 
     def layer_at(self, point: Array, prefer: int | None = None) -> int | None:
         """Return the id of the topmost layer at a document point (2,), or of a preferred one."""

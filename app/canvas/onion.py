@@ -40,7 +40,6 @@ class OnionSkin(QGraphicsItem):
             pen = QPen(QColor(colour), 1.0, style)
             pen.setCosmetic(True)
             self._ghosts.append((path, fill, pen))
-        self.update()
 
     def boundingRect(self) -> QRectF:
         """Return everything."""

@@ -20,6 +20,17 @@ class Overlay(QGraphicsItem):
         super().__init__()
         self.view = view
 
+    def update(self) -> None:
+        """Have the view painted anew, unless nothing of this is to be seen in it."""
+        if self.isVisible():
+            self.view.viewport().update()
+
+    def setVisible(self, visible: bool) -> None:
+        """Show or hide it."""
+        if visible != self.isVisible():
+            super().setVisible(visible)
+            self.view.viewport().update()
+
     def boundingRect(self) -> QRectF:
         """Return the whole view."""
         return QRectF(self.view.viewport().rect())

@@ -55,7 +55,8 @@ class View(pg.GraphicsView):
         self._box.invertY(True)
         self.setCentralItem(self._box)
         self.setAntialiasing(True)
-        self.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.FullViewportUpdate)
+        # Items that change would have it painted once more than what calls for it
+        self.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.NoViewportUpdate)
         self.setCacheMode(QGraphicsView.CacheModeFlag.CacheNone)
         self.setAcceptDrops(False)  # files are for the window
         self.viewport().setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -131,7 +132,7 @@ class View(pg.GraphicsView):
     # -- items ---------------------------------------------------------------------------------
 
     def add_artwork(self, item: QGraphicsItem, z: float) -> None:
-        """Add an item that paints in document coordinates."""
+        """Add an item that paints in document coordinates; ``update_all`` shows its changes."""
         item.setZValue(z)
         self._box.addItem(item, ignoreBounds=True)
 

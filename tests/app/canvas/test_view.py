@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QApplication
 
 from app.canvas.camera import MAX_ZOOM, MIN_ZOOM
 from app.canvas.moment import Role
-from core.model import Document
+from core.model import Document, Style
+from core.model.edits import update_layer
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
 
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
@@ -242,3 +243,24 @@ def test_mere_hovering_repaints_nothing(hand: Hand):
     for x in range(400, 450, 5):
         hand.move(SOURCE, (x, 300))
     assert painted == []
+
+
+def test_what_changes_is_painted_once(open_canvas: Callable[..., Hand]):
+    hand = open_canvas(a_document(), tool="nodes")
+    painted: list[Role] = []
+    for role in SIDE_BY_SIDE:
+        hand.pane(role).tool_overlay.draw = lambda painter, role=role: painted.append(role)
+    hand.workspace.playhead.move_to(13)
+    hand.move(SOURCE, SQUARE[0])
+    hand.canvas.grab()
+    painted.clear()
+    hand.workspace.playhead.move_to(9)
+    for _ in range(3):
+        QApplication.processEvents()
+    assert painted == [BETWEEN]
+    painted.clear()
+    hand.workspace.session.apply("Fill", update_layer, 1, style=Style("#ff0000"))
+    hand.move(SOURCE, SQUARE[1])  # the tool shows something else, too
+    for _ in range(3):
+        QApplication.processEvents()
+    assert sorted(painted, key=SIDE_BY_SIDE.index) == [*SIDE_BY_SIDE]
