@@ -203,8 +203,9 @@ def test_no_frame_of_any_pair_folds_and_next_to_none_crosses(cases: list[Case]):
 
 @pytest.mark.sweep
 @pytest.mark.timeout(1800)
-def test_no_pair_jumps(cases: list[Case]):
-    assert failing(cases, lambda case: case.abruptness(257) < ABRUPT) == []
+def test_next_to_no_pair_jumps(cases: list[Case]):
+    jumping = failing(cases, lambda case: case.abruptness(257) < ABRUPT)
+    assert len(jumping) <= FEW, jumping
 
 
 @pytest.mark.sweep
