@@ -16,6 +16,7 @@ import core
 from core.model import Recipe
 from core.model.recipe import Method
 from core.morph.motion.motion import Motion
+from core.morph.motion.rigid import Rigid
 from core.morph.pipeline import solve_outlines
 from core.morph.quality import folds, smallest_angle
 from tests.benchmarks.corners import allowed_angle
@@ -72,6 +73,8 @@ class Row:
     """The same for the paper's plain form on the same mesh."""
     stages: dict[str, float]
     """The milliseconds of each stage; of the correspondence that was taken."""
+    limbs_pass: bool
+    """Whether limbs must pass one another: that is why the boundary crosses itself, if it does."""
     drifts: dict[str, Drift]
     """Our motion and the others, by name."""
     given: GivenMarks | None = None
@@ -155,6 +158,7 @@ def measure(pair: Pair, frames: int, recipe: Recipe | None = None) -> tuple[Row,
         jolt=jolt(motion / morph.unit, times),
         jolt_plain=jolt(plain / morph.unit, times),
         stages={stage.name: 1e3 * stage.seconds for stage in report.stages},
+        limbs_pass=isinstance(morph.inbetween.shape, Rigid) and morph.inbetween.shape.limbs_pass,
         drifts={
             name: Drift.of([outline(frame, morph) for frame in positions], times)
             for name, positions in ({OWN: motion} | others).items()

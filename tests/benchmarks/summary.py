@@ -145,7 +145,9 @@ def _crossings(rows: Sequence[Row]) -> Iterator[str]:
         for row in crossing:
             span = f"t {row.crossing[0]:.2f} to {row.crossing[-1]:.2f}"
             linear = len(row.drifts["straight paths"].crossing)
-            yield f"  {row.pair:<36}{len(row.crossing):3} frames, {span}; straight paths {linear}"
+            cause = "limbs must pass one another" if row.limbs_pass else "not kept apart"
+            count = f"{len(row.crossing):3} frames"
+            yield f"  {row.pair:<36}{count}, {span}: {cause}; straight paths {linear}"
         yield ""
 
 

@@ -73,6 +73,11 @@ class Rigid:
         """Return positions (n, 2) at t, wherever they lie."""
         return self._frames(t)
 
+    @property
+    def limbs_pass(self) -> bool:
+        """Whether limbs must pass one another, which crosses the boundary for a while."""
+        return self._frames.limbs_pass
+
     def plain(self, t: float) -> Array | None:
         """Return positions (n, 2) at t if they need not be held, which costs little; else None."""
         return self._frames.plain(t)

@@ -101,7 +101,9 @@ class SoundFrames:
         self._hold = Hold(fit, guard, contact)
         self._known: dict[Ends, Stretch | None] = {}
         anchors, met = self._survey(watch)
-        if not met:
+        self.limbs_pass = not met
+        """Whether limbs must pass one another, which crosses the boundary for a while."""
+        if self.limbs_pass:
             self._hold = Hold(fit, guard, NoContact())
             self._known.clear()
             anchors, _ = self._survey(watch)

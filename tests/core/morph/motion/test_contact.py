@@ -117,6 +117,8 @@ def test_limbs_that_must_pass_one_another_cross_and_it_is_told_where():
         assert bool(found.crossings) == crosses_itself([frame[ring] for ring in morph.rings])
         crossed += found.crossings > 0
     assert 0 < crossed < len(TIMES) / 2
+    assert morph.inbetween.shape.limbs_pass
+    assert not solve(*UNCURLING).inbetween.shape.limbs_pass
 
 
 def test_limbs_within_a_hole_are_kept_apart_too():
