@@ -42,6 +42,8 @@ class Row:
     triangles: int
     folds_source: int
     folds_target: int
+    certified: bool
+    """Whether the map is proved to be one to one."""
     end_error: float
     """How far the first and last frame are from what was drawn, relative to its size."""
     end_jump: float
@@ -135,6 +137,7 @@ def measure(pair: Pair, frames: int, recipe: Recipe | None = None) -> tuple[Row,
         triangles=report.triangles,
         folds_source=len(report.folds_source),
         folds_target=len(report.folds_target),
+        certified=report.certificate.holds,
         end_error=max(
             end_error(rings, outline(motion[k], morph))
             for k, rings in ((0, drawn[0]), (-1, drawn[1]))

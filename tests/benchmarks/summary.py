@@ -92,6 +92,7 @@ def _line(
 def _counts(rows: Sequence[Row]) -> Iterator[str]:
     frames = sum(row.frames for row in rows)
     yield _count("pairs with a fold at an end", (_folds(row) for row in rows))
+    yield _count("pairs without a certificate", (not row.certified for row in rows))
     yield _count("pairs whose outlines were repaired", (row.repairs for row in rows))
     inexact = (row.end_error > EXACT for row in rows if not row.repairs)
     yield _count("  others with an end off by over 1e-9", inexact)

@@ -28,6 +28,7 @@ def turned():
 def test_a_turned_letter_is_measured_as_rigid_while_straight_paths_shrink_it(turned):
     _, row, morph = turned
     assert row.triangles == len(morph.triangles)
+    assert row.certified
     assert row.end_error < 1e-12
     assert row.folds_source == row.folds_target == row.folded_frames == 0
     assert row.crossing == ()
