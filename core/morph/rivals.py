@@ -83,10 +83,7 @@ def choose(
         doubt = _doubt(rival, tried[0].rival if tried else rival)
         if tried and _cost(GOOD, _turn(*ends), doubt) >= min(each.cost for each in tried):
             continue
-        sketch = _sketched(ends)
-        rough = replace(recipe, density=min(recipe.density, SKETCH))
-        found = direct_map(*(sketch or ends), rough if sketch else recipe, watch)
-        tried.append(_Tried(rival, ends, doubt, found, sketched=sketch is not None))
+        tried.append(_Tried.of(rival, ends, doubt, recipe, watch))
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
     tried.sort(key=lambda each: each.cost)
@@ -114,6 +111,21 @@ class _Tried:
     final: bool = False
     """Whether the map has been mended."""
 
+    @classmethod
+    def of(
+        cls,
+        rival: Correspondence,
+        ends: tuple[Rings, Rings],
+        doubt: float,
+        recipe: Recipe,
+        watch: Watch,
+    ) -> Self:
+        """Map a correspondence, or a sketch of it where it is very fine."""
+        sketch = _sketched(ends)
+        rough = replace(recipe, density=min(recipe.density, SKETCH))
+        found = direct_map(*(sketch or ends), rough if sketch else recipe, watch)
+        return cls(rival, ends, doubt, found, sketched=sketch is not None)
+
     @property
     def cost(self) -> float:
         """What is left after mending, as far as one can tell before."""
@@ -123,17 +135,23 @@ class _Tried:
     def full_cost(self) -> float:
         return _cost(self.map.mean, self.map.turn, self.doubt)
 
+    @property
+    def slides(self) -> bool:
+        """Whether sliding may help, and does not take long."""
+        fine = self.map.mesh.boundary_size >= 2 * SKETCH
+        return (
+            bool(self.rival.proposed) and self.map.sound and self.map.mean >= SLIDING and not fine
+        )
+
     def finished(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried:
         """Return what it becomes: its boundary slid, as long as that helps, and its map mended."""
-        best = self.drawn(recipe, watch).unfolded(recipe, watch)
+        best = self.unfolded(recipe, watch)
         for _ in range(SLIDES):
-            if not best.rival.proposed or not best.map.sound or best.map.mean < SLIDING:
-                break
-            after = best.slid(frames, recipe, watch)
+            after = best.slid(frames, recipe, watch) if best.slides else None
             if after is None or after.cost >= best.cost:
                 break
             best = after
-        return best.mended(recipe, watch)
+        return best.drawn(recipe, watch).mended(recipe, watch)
 
     def slid(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried | None:
         """Return the map, without folds, of what the boundary slides to; none if that fails."""
@@ -143,20 +161,24 @@ class _Tried:
         except MarkError:
             return None
         stage = Stage("sliding", perf_counter() - start, f"from distortion {self.map.mean:.3f}")
-        ends = _inside(rival, frames)
-        direct = direct_map(*ends, recipe, watch)
-        direct = replace(direct, stages=(stage, *direct.stages))
-        return _Tried(rival, ends, self.doubt, direct).unfolded(recipe, watch)
+        after = _Tried.of(rival, _inside(rival, frames), self.doubt, recipe, watch)
+        return after.after(stage).unfolded(recipe, watch)
+
+    def after(self, *stages: Stage) -> _Tried:
+        """Return it with stages that came before the map."""
+        return replace(self, map=replace(self.map, stages=(*stages, *self.map.stages)))
 
     def drawn(self, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it with a map of the ends themselves."""
         if not self.sketched:
             return self
-        return replace(self, map=direct_map(*self.ends, recipe, watch), sketched=False)
+        before = [stage for stage in self.map.stages if stage.name == "sliding"]
+        direct = direct_map(*self.ends, recipe, watch)
+        return replace(self, map=direct, sketched=False).after(*before)
 
     def unfolded(self, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it without folds."""
-        return self if self.map.sound else self.mended(recipe, watch)
+        return self if self.map.sound else self.drawn(recipe, watch).mended(recipe, watch)
 
     def mended(self, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it with folds and small angles put right."""
