@@ -175,7 +175,8 @@ def turn_of(document: Document, layer: Layer, index: int, morph_of: MorphOf) -> 
         return None if morph is None else morph.angle
     from core.morph.hanging.carriers import Carriers
 
-    return Carriers(document, morph_of).run(layer).turn(index)
+    carriers = Carriers(document, morph_of)
+    return carriers.run(layer).turn(index)
 
 
 def keyframe_at(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import inf
 from typing import Generic
+from weakref import ref
 
 from core.model import Document, Layer
 from core.model.outline import Array
@@ -15,7 +16,10 @@ from core.morph.scene import F, FramesOf, Span, span_of
 
 
 class Carriers(Generic[F]):
-    """Looks at a document once: what was found for one layer is kept for the others."""
+    """Looks at a document once: what was found for one layer is kept for the others.
+
+    It keeps the solutions alive that its runs show.
+    """
 
     def __init__(self, document: Document, frames_of: FramesOf[F]) -> None:
         self._document, self._frames_of = document, frames_of
@@ -49,8 +53,9 @@ class Carriers(Generic[F]):
         for span, (key, later) in enumerate(pairwise(keys)):
             easing, ends = layer.easing_of(span), (passes[span], passes[span + 1])
             morph = None if easing.hold else self._morph_of(span_of(layer, span))
+            solution = None if morph is None else ref(morph)
             stretches.append(
-                Stretch(key.frame, later.frame, key.outline, key.frame, easing, morph, ends)
+                Stretch(key.frame, later.frame, key.outline, key.frame, easing, solution, ends)
             )
         stretches.append(Stretch(keys[-1].frame, inf, keys[-1].outline, keys[-1].frame))
         return Run(tuple(stretches), carrier)

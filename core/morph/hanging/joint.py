@@ -74,9 +74,10 @@ class MovingJoint:
     own centre leave that where it would be without them.
     """
 
-    def __init__(self, stretch: Stretch, morph: Morph, carrier: Run) -> None:
+    def __init__(self, stretch: Stretch, carrier: Run) -> None:
         first, last = stretch.first, stretch.last
-        self._stretch, self._morph = stretch, morph
+        self._stretch = stretch
+        morph = self._morph
         joined = _joined(morph.rest, carrier, first), _joined(morph.target, carrier, last)
         self._tracks = (
             Track(carrier, first, morph.rest[joined[0]]),
@@ -90,6 +91,12 @@ class MovingJoint:
         self._weights = hinge(morph.rest[self._vertices], slid, CLOSE * size)
         self._seen = self._seen_turn(self._carrier_turned(last, end))
         self._spins = self._extra_spins()
+
+    @property
+    def _morph(self) -> Morph:
+        morph = self._stretch.morph
+        assert morph is not None
+        return morph
 
     @property
     def angle(self) -> float:

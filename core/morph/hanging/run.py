@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from weakref import ReferenceType
 
 from core.geometry.flatten import flatten
 from core.model import Easing, Outline
@@ -17,7 +18,7 @@ from core.morph.morph import Morph
 from core.morph.motion.passing import bumps
 
 KEPT = 128
-"""How many joints are remembered."""
+"""How many joints are remembered; they keep no solution alive."""
 
 
 @dataclass(frozen=True)
@@ -31,20 +32,27 @@ class Stretch:
     drawn: float
     """The key's frame."""
     easing: Easing = HOLD
-    morph: Morph | None = None
+    solution: ReferenceType[Morph] | None = None
     """None where nothing moves, or while nothing is solved."""
     passes: tuple[bool, bool] = (False, False)
     """Whether the motion passes through its ends, and is not stopped there by a carrier's."""
 
+    @property
+    def morph(self) -> Morph | None:
+        """The solution; whoever uses the stretch keeps it alive."""
+        return None if self.solution is None else self.solution()
+
     def progress(self, frame: float) -> float:
         """Return s at a frame, taken to lie in the stretch."""
-        if self.morph is None:
+        if self.solution is None:
             return 0.0
         return self.easing((frame - self.first) / (self.last - self.first))
 
     def as_drawn(self, frame: float) -> bool:
         """Return whether a frame shows a key where it was drawn."""
-        return frame == self.drawn or (self.morph is not None and frame in (self.first, self.last))
+        return frame == self.drawn or (
+            self.solution is not None and frame in (self.first, self.last)
+        )
 
 
 @dataclass(frozen=True)
@@ -71,7 +79,7 @@ class Run:
         """Return how a stretch is joined to the carrier, if there is one."""
         if index not in self._joints:
             stretch = self.stretches[index]
-            unsolved = stretch.morph is None and not stretch.easing.hold
+            unsolved = stretch.solution is None and not stretch.easing.hold
             joint = None if self.carrier is None or unsolved else _joint(stretch, self.carrier)
             self._joints[index] = joint
         return self._joints[index]
@@ -131,6 +139,6 @@ class Run:
 
 @lru_cache(KEPT)
 def _joint(stretch: Stretch, carrier: Run) -> Joint:
-    if stretch.morph is None:
+    if stretch.solution is None:
         return StillJoint(stretch, carrier)
-    return MovingJoint(stretch, stretch.morph, carrier)
+    return MovingJoint(stretch, carrier)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Sequence
 from functools import cache
+from weakref import ref
 
 import numpy as np
 import pytest
@@ -250,6 +252,21 @@ def test_a_key_inserted_where_a_layer_is_carried_is_what_shows_there(frame):
         _, s = after.layer(2).progress_at(f)
         found = carrying(after, solved)(after.layer(2), f)(morph.at(s))
         assert found == pytest.approx(placed(morph.rest, pose), abs=1e-6)
+
+
+def test_what_is_remembered_of_joints_keeps_no_solution_alive():
+    keys = [(f, placed(cross(), pose)) for f, pose in zip((1, 25), POSES, strict=True)]
+    document = Document((body(), layer(2, keys, 1), layer(3, [(1, cross())], 1)))
+    solutions = {
+        span: solve_span(span) for span in (span_of(each, 0) for each in document.layers[:2])
+    }
+    alive = [ref(morph) for morph in solutions.values()]
+    for drawn in document.layers:
+        layer_rings(document, drawn, 9, solutions.get)
+    assert len(alive) == 2
+    solutions.clear()
+    gc.collect()
+    assert not any(morph() for morph in alive)
 
 
 def test_nothing_is_carried_where_nothing_is_solved():
