@@ -94,6 +94,8 @@ class Worker(QObject):
 
     @Slot(int, object)
     def _on_done(self, number: int, outcome: object) -> None:
+        if self._job is None or number != self._job.number:
+            return  # it was queued before the worker was closed: to disconnect does not recall it
         self._end()
         self.done.emit(number, outcome)
 
