@@ -66,6 +66,8 @@ def _faults(check: SpanCheck) -> list[str]:
     if not check.exact:
         error = max(check.source_error, check.target_error)
         faults.append(_tr("Its ends are off by {:.1e} of their size.").format(error))
+    if not check.one_to_one:
+        faults.append(_tr("Its map from key to key is not one to one."))
     return faults
 
 

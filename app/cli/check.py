@@ -29,10 +29,10 @@ examples:
   betwixt check jump.betwixt
   betwixt check jump.betwixt --json > report.json
 
-In the JSON report, "folds" and "crossings" are counts frame by frame, "places" says
-where they are in the frames that have any, "end_errors" are fractions of the
-outline's size, "mirror" says whether the target matches far better mirrored, "seconds"
-are times.
+In the JSON report, "one_to_one" says whether the map from key to key is proved to be
+so, "folds" and "crossings" are counts frame by frame, "places" says where they are in
+the frames that have any, "end_errors" are fractions of the outline's size, "mirror"
+says whether the target matches far better mirrored, "seconds" are times.
 """
 
 Entry = dict[str, Any]
@@ -95,6 +95,7 @@ def _entry(layer: Layer, index: int, progress: Progress) -> Entry:
     found = check_span(timed.span, morph, timed.frames())
     return entry | {
         "sound": found.sound,
+        "one_to_one": found.one_to_one,
         "vertices": len(morph.rest),
         "triangles": len(morph.triangles),
         "folds": [check.folds for check in found.frames],
@@ -133,6 +134,7 @@ def _lines(path: Path, entries: list[Entry], sound: bool) -> list[str]:
             f"  folds       {_by_frame(entry['folds'], first)}",
             f"  crossings   {_by_frame(entry['crossings'], first)}",
             f"  ends        off by {errors['source']:.1e} and {errors['target']:.1e} of the size",
+            *([] if entry["one_to_one"] else ["  map         not one to one"]),
             f"  distortion  {_distortion(**entry['distortion'])}",
             f"  time        {1000 * seconds['solve']:.0f} ms to solve ({stages}),"
             f" {1000 * seconds['frame']:.2f} ms a frame",

@@ -1,4 +1,4 @@
-"""Whether a span's frames are sound: nothing folded, nothing crossing, both ends as drawn."""
+"""Whether a span is sound: its map one to one, no frame folded or crossing, both ends as drawn."""
 
 from __future__ import annotations
 
@@ -52,6 +52,8 @@ class SpanCheck:
     target_error: float
     tolerance: float = END_TOLERANCE
     """How much of an error is no fault: outlines that were repaired are off by that."""
+    one_to_one: bool = True
+    """Whether the map from end to end is proved to be so."""
 
     @classmethod
     def of(cls, span: Span, morph: Morph, checks: Sequence[FrameCheck]) -> Self:
@@ -61,6 +63,7 @@ class SpanCheck:
             _end_error(span.source, morph, 0.0),
             _end_error(span.target, morph, 1.0),
             END_TOLERANCE + max((repair.moved for repair in morph.report.repairs), default=0.0),
+            morph.report.certificate.holds,
         )
 
     @property
@@ -71,7 +74,7 @@ class SpanCheck:
     @property
     def sound(self) -> bool:
         """Whether nothing is wrong."""
-        return self.exact and all(frame.sound for frame in self.frames)
+        return self.exact and self.one_to_one and all(frame.sound for frame in self.frames)
 
     @property
     def seconds_per_frame(self) -> float:

@@ -25,6 +25,7 @@ class Eye:
         """Each span that was looked at, and the frame that was the most urgent."""
         self.crossing = set(crossing)
         self.broken = False
+        self.one_to_one = True
         self.listen: Callable[[Task], None] = lambda task: None
         self.gate = threading.Event()
         self.gate.set()
@@ -37,7 +38,7 @@ class Eye:
         if self.broken:
             raise SolveError("The frames could not be looked at.")
         checks = tuple(self._look(k) for k, _ in sorted(task.unseen))
-        return Sight({}, checks, SpanCheck(checks, 0.0, 0.0))
+        return Sight({}, checks, SpanCheck(checks, 0.0, 0.0, one_to_one=self.one_to_one))
 
     def _look(self, frame: int) -> FrameCheck:
         crosses = frame in self.crossing

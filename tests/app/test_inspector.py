@@ -197,6 +197,15 @@ def test_a_check_ends_when_its_span_changes(workspace: Workspace, eye: Eye, qtbo
     qtbot.waitUntil(stands(workspace, Standing.SOUND))
 
 
+def test_a_map_that_is_not_one_to_one_is_told_of_though_every_frame_is_sound(
+    workspace: Workspace, eye: Eye, qtbot: QtBot
+) -> None:
+    eye.one_to_one = False
+    nudge(workspace)
+    qtbot.waitUntil(stands(workspace, Standing.UNSOUND))
+    assert describe_span(workspace.inspector, 1, 0) == "Its map from key to key is not one to one."
+
+
 def test_undo_shows_a_known_verdict_without_another_look(
     workspace: Workspace, eye: Eye, qtbot: QtBot
 ) -> None:

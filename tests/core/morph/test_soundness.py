@@ -111,6 +111,16 @@ def test_a_corner_that_is_cut_off_shows_in_the_ends() -> None:
         assert not found.sound
 
 
+def test_a_map_that_is_not_proved_to_be_one_to_one_is_not_sound_whatever_its_frames() -> None:
+    span, morph = solved(Outline.polygon(SQUARE), Outline.polygon(SQUARE + 9))
+    doubtful = replace(morph.report.certificate, bordered=False)
+    morph = replace(morph, report=replace(morph.report, certificate=doubtful))
+    found = check_span(span, morph, FRAMES)
+    assert found.exact
+    assert all(frame.sound for frame in found.frames)
+    assert not found.sound
+
+
 def test_curves_are_measured_where_they_were_flattened() -> None:
     points = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]], dtype=float)
     along = 0.55 * np.roll(points, -1, axis=0)
