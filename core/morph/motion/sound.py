@@ -82,7 +82,7 @@ class Stretch:
 
 
 class SoundFrames:
-    """Frames of a motion that neither fold nor cross, wherever they lie."""
+    """Frames of a motion that do not fold, nor cross unless limbs must pass, wherever they lie."""
 
     def __init__(
         self,
@@ -102,7 +102,10 @@ class SoundFrames:
         self._known: dict[Ends, Stretch | None] = {}
         anchors, met = self._survey(watch)
         self.limbs_pass = not met
-        """Whether limbs must pass one another, which crosses the boundary for a while."""
+        """Whether limbs must pass one another, which crosses the boundary for a while.
+
+        Then no part of the boundary is kept from any other, from end to end of the motion.
+        """
         if self.limbs_pass:
             self._hold = Hold(fit, guard, NoContact())
             self._known.clear()
