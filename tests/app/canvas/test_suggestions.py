@@ -225,15 +225,18 @@ def test_with_marks_of_the_artist_they_fill_the_gaps_only(hand: Hand, settle):
 
 def test_where_marks_contradict_each_other_no_more_are_suggested(hand: Hand, settle, qtbot: QtBot):
     session, suggestions = hand.workspace.session, hand.workspace.suggestions
-    for corner in (0, 2, 4):
-        hand.click(SOURCE, L[corner])
+    for place in (L[0], (L[0] + L[1]) / 2, L[1]):  # which leaves three corners without a mark
+        hand.click(SOURCE, place)
         settle(hand)
-    first, second, _ = hand.document.layers[0].keyframes[1].marks
-    session.apply("Move mark", move_mark, 1, 1, 0, replace(second, at=second.at + 0.5))
+    assert suggestions.shown
+    first, second, third = hand.document.layers[0].keyframes[1].marks
+    between = replace(second, at=(second.at + third.at) / 2)
+    session.apply("Move mark", move_mark, 1, 1, 0, between)
     qtbot.waitUntil(lambda: bool(hand.workspace.solver.errors))
     assert suggestions.shown == ()
     session.undo()
     assert hand.document.layers[0].keyframes[1].marks[0] == first
+    qtbot.waitUntil(lambda: not hand.workspace.solver.busy)  # it may not have been solved before
     assert settle(hand)
 
 
