@@ -92,6 +92,10 @@ class Frames(QObject):
         """Miss a frame no longer: it cannot be made."""
         self._missing.pop(instant, None)
 
+    def give_all_up(self) -> None:
+        """Miss nothing any longer: something else is on screen."""
+        self._missing.clear()
+
     def _at_once(self, morph: Morph, s: float) -> Array | None:
         if len(morph.triangles) > AT_ONCE:
             return None

@@ -101,6 +101,7 @@ class Inspector(QObject):
         self._worker.done.connect(self._on_done)
         for signal in self._followed():
             signal.connect(self._advance)
+        session.replaced.connect(frames.give_all_up)
         self._advance()
 
     @property
@@ -150,6 +151,7 @@ class Inspector(QObject):
             return
         for signal in self._followed():
             signal.disconnect(self._advance)
+        self._session.replaced.disconnect(self._frames.give_all_up)
         self._worker.close()
 
     # -- the flow ------------------------------------------------------------------------------

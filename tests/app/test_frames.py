@@ -169,3 +169,18 @@ def test_a_frame_that_cannot_be_made_is_not_tried_for_ever(
     workspace.frames.at(morph, 0.5)
     qtbot.waitUntil(lambda: not workspace.inspector.busy)
     assert workspace.frames.missing is None
+
+
+def test_what_was_missing_of_a_replaced_document_is_not_made_any_more(
+    open_workspace: Callable[..., Workspace], qtbot: QtBot
+):
+    morph = Slow()
+    workspace = open_workspace(document(), lambda span, progress: morph)
+    qtbot.waitUntil(lambda: not workspace.solver.busy and not workspace.inspector.busy)
+    for s in (0.5, 0.4, 0.3):
+        workspace.frames.at(morph, s)
+    workspace.session.replace(Document())
+    morph.gate.set()
+    qtbot.waitUntil(lambda: not workspace.inspector.busy)
+    assert workspace.frames.missing is None
+    assert set(workspace.frames.made(morph)) == {0.5}  # which was under way
