@@ -10,8 +10,10 @@ from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-# A busy machine is no failure, so examples have no deadline.
-settings.register_profile("betwixt", deadline=None, max_examples=60)
+# A busy machine is no failure, so examples have no deadline. The same ones every time: what passes
+# here passes elsewhere. New ones: pytest --hypothesis-profile=explore.
+settings.register_profile("explore", deadline=None, max_examples=60)
+settings.register_profile("betwixt", settings.get_profile("explore"), derandomize=True)
 settings.load_profile("betwixt")
 
 collect_ignore: list[str] = []

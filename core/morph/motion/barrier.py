@@ -21,8 +21,9 @@ LEFT_ALONE = 1 / 4
 """Part of its size in frames that are to be left alone below which a gap may be felt elsewhere."""
 REGULARISATION = 1e-10
 """Added to a Hessian's diagonal where it is not definite, relative to its largest entry."""
-CONVERGED = 1e-10
-"""Newton decrement below which one more step settles positions, at unit area."""
+CONVERGED = 1e-16
+"""Newton decrement below which one more step settles positions, at unit area: tiny triangles weigh
+their area, and must be lifted off their folds as well."""
 
 
 @dataclass(frozen=True, eq=False)
