@@ -15,6 +15,11 @@ def silent(fraction: float, stage: str) -> None:
     """Ignore progress."""
 
 
+def part(progress: Progress, index: int, count: int) -> Progress:
+    """Return what reports the progress of one of ``count`` equal parts of work."""
+    return lambda fraction, stage: progress((index + fraction) / count, stage)
+
+
 Watch = Callable[[str], None]
 """Called as ``watch(stage)`` before steps whose number is not known; it may raise ``Cancelled``."""
 

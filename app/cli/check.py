@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from app.cli.mirrors import MIRROR_NOTE
 from app.cli.terminal import OK, UNSOUND, WRONG, progress_bar
+from core.progress import Progress, part
 
 if TYPE_CHECKING:
     from core.model import Document, Layer
-    from core.progress import Progress
 
 SUMMARY = "look for folds and crossings in a project's frames"
 DESCRIPTION = """\
@@ -69,14 +69,10 @@ def run(options: Namespace) -> int:
 def _entries(document: Document, progress: Progress) -> list[Entry]:
     """Check every span; one that cannot be solved does not keep the others from it."""
     spans = [(layer, index) for layer in document.layers for index in range(layer.spans)]
-    entries = []
-    for done, (layer, index) in enumerate(spans):
-
-        def report(fraction: float, stage: str, done: int = done) -> None:
-            progress((done + fraction) / len(spans), stage)
-
-        entries.append(_entry(layer, index, report))
-    return entries
+    return [
+        _entry(layer, index, part(progress, done, len(spans)))
+        for done, (layer, index) in enumerate(spans)
+    ]
 
 
 def _entry(layer: Layer, index: int, progress: Progress) -> Entry:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from core.errors import MorphError
 from core.model import Document, Layer
 from core.morph.scene import Span, solve_span, span_of
-from core.progress import Progress, silent
+from core.progress import Progress, part, silent
 
 if TYPE_CHECKING:
     from core.morph.morph import Morph
@@ -34,10 +34,7 @@ def solve_all(
     }
     missing = {span: place for span, place in needed.items() if span not in solved}
     for done, (span, (layer, index)) in enumerate(missing.items()):
-
-        def report(fraction: float, stage: str, done: int = done) -> None:
-            progress((done + fraction) / len(missing), stage)
-
+        report = part(progress, done, len(missing))
         report(0.0, "outlines")  # a map that is remembered tells nothing of its own
         try:
             solved[span] = solve_span(span, report)

@@ -11,7 +11,7 @@ from core.morph.morph import Morph
 from core.morph.passage import shared_velocity
 from core.morph.pipeline import solve_outlines
 from core.morph.scene import Passage, Span
-from core.progress import Progress, silent
+from core.progress import Progress, part, silent
 
 KEPT = 64
 """How many maps are remembered."""
@@ -22,8 +22,14 @@ _lock = Lock()
 
 def solve(span: Span, progress: Progress = silent) -> Morph:
     """Solve a span; see ``solve_outlines`` for errors and progress."""
-    morph = solve_by_itself(span, progress)
-    start, end = _shared_start(span, morph, progress), _shared_end(span, morph, progress)
+    before, after = span.before, span.after
+    parts = 1 + (before is not None) + (after is not None)
+    morph = solve_by_itself(span, part(progress, 0, parts))
+    start = end = None
+    if before is not None:
+        start = _shared_start(before, morph, part(progress, 1, parts))
+    if after is not None:
+        end = _shared_end(morph, after, part(progress, parts - 1, parts))
     if start is None and end is None:
         return morph
     return morph.passing(start, end, lambda stage: progress(1.0, stage))
@@ -34,24 +40,22 @@ def solve_by_itself(span: Span, progress: Progress = silent) -> Morph:
     return _solve_map(span.map, progress).along(span.turning)
 
 
-def _shared_start(span: Span, morph: Morph, progress: Progress) -> Array | None:
-    """Return the velocities (n, 2) that a span has to start with, if it passes through there."""
-    earlier = _neighbour(span.before, morph, progress)
-    if span.before is None or earlier is None:
+def _shared_start(before: Passage, morph: Morph, progress: Progress) -> Array | None:
+    """Return the velocities (n, 2) that a span has to start with; None if none can be shared."""
+    earlier = _neighbour(before, morph, progress)
+    if earlier is None:
         return None
-    return shared_velocity(earlier, morph, (span.before.duration, 1.0))[1]
+    return shared_velocity(earlier, morph, (before.duration, 1.0))[1]
 
 
-def _shared_end(span: Span, morph: Morph, progress: Progress) -> Array | None:
-    later = _neighbour(span.after, morph, progress)
-    if span.after is None or later is None:
-        return None
-    return shared_velocity(morph, later, (1.0, span.after.duration))[0]
+def _shared_end(morph: Morph, after: Passage, progress: Progress) -> Array | None:
+    later = _neighbour(after, morph, progress)
+    return None if later is None else shared_velocity(morph, later, (1.0, after.duration))[0]
 
 
-def _neighbour(passage: Passage | None, morph: Morph, progress: Progress) -> Morph | None:
+def _neighbour(passage: Passage, morph: Morph, progress: Progress) -> Morph | None:
     """Return the solution beyond a key; None where there is none that motion could pass to."""
-    if passage is None or not morph.inbetween.can_pass:
+    if not morph.inbetween.can_pass:
         return None
     try:
         other = solve_by_itself(passage.beyond, progress)

@@ -131,6 +131,17 @@ def test_frames_do_not_depend_on_what_was_solved_before():
     assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
 
 
+def test_the_work_for_a_span_and_its_neighbours_is_told_as_one():
+    layer = waving(passes=True)
+    for index in range(layer.spans):
+        solved._known.clear()
+        told: list[float] = []
+        solve_span(span_of(layer, index), lambda fraction, stage, told=told: told.append(fraction))
+        assert told == sorted(told)
+        assert told[0] == 0
+        assert told[-1] == 1
+
+
 def test_a_hold_is_no_motion_to_pass_to():
     layer = waving(passes=True)
     held = replace(layer.keyframes[1], easing=HOLD)
