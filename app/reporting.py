@@ -49,12 +49,14 @@ class Reporter(QObject):
         self._in_view: Key | None = None
         """The span that was in view when that was decided."""
         self._dismissed: MorphError | None = None
-        self._offered: Span | None = None
-        """The span whose target was offered to be mirrored last."""
+        self._offered: set[Span] = set()
+        """The spans whose targets were offered to be mirrored."""
         self._told: set[tuple[int, int]] = set()
         """Keyframes (layer id, index) of which it was told that they were repaired."""
         self._passing = False
         """Whether what is on show goes with the next change."""
+        self._refused = False
+        """Whether that is what was just refused, which comes before all that cannot be solved."""
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self._follow_solver)
         workspace.session.failed.connect(self.show_refusal)
@@ -70,7 +72,7 @@ class Reporter(QObject):
 
     def show_refusal(self, error: MorphError) -> None:
         """Show what was refused just now; the next change takes it away."""
-        self._passing, self._shown = True, None
+        self._passing, self._refused, self._shown = True, True, None
         actions: tuple[Action, ...] = ()
         if isinstance(error, FileError) and self._workspace.session.dirty:
             actions = ((self.tr("Save as…"), self._save_as),)
@@ -79,8 +81,8 @@ class Reporter(QObject):
             self._canvas.show_error(error)
 
     def note(self, text: str, *actions: Action) -> None:
-        """Show what happened; the next change takes it away."""
-        self._passing, self._shown = True, None
+        """Show what happened; the next change takes it away, and so does what cannot be solved."""
+        self._passing, self._refused, self._shown = True, False, None
         self._bar.show_info(text, *actions)
 
     def show_fault(self, fault: BaseException) -> None:
@@ -102,6 +104,7 @@ class Reporter(QObject):
 
     def _on_replaced(self) -> None:
         self._told.clear()
+        self._offered.clear()
 
     def _on_playhead_moved(self) -> None:
         """Follow to another span, unless it plays: what plays is looked at, not worked on."""
@@ -118,11 +121,11 @@ class Reporter(QObject):
         """Show the most pressing error of the solver, or take it away when it is gone."""
         layer = self._workspace.selection.layer
         self._in_view = layer and (layer.id, self._span_in_view(layer))
-        if self._passing:
+        if self._refused:
             return
         key = self._most_pressing()
         error = None if key is None else self._workspace.solver.errors[key]
-        if error is None and not self._tell_repairs():
+        if error is None and not self._passing and not self._tell_repairs():
             self._offer_mirror()
         if error is None or key is None or error is self._dismissed:
             if self._shown is not None:
@@ -135,7 +138,7 @@ class Reporter(QObject):
         shown = _Shown(error, about, here, self._workspace.selection.mark)
         if shown == self._shown:
             return
-        self._shown = shown
+        self._passing, self._shown = False, shown
         self._bar.show_error(error, *self._mends(error, key, layer), about=about)
         if shown.here:
             self._canvas.show_error(error)
@@ -156,11 +159,13 @@ class Reporter(QObject):
         return layer.span_at(self._workspace.playhead.frame)[0]
 
     def _on_closed(self) -> None:
-        self._dismissed = self._shown and self._shown.error
+        if self._shown is not None:
+            self._dismissed = self._shown.error
         self._clear()
+        self._follow_soon()
 
     def _clear(self) -> None:
-        self._passing, self._shown = False, None
+        self._passing, self._refused, self._shown = False, False, None
         self._bar.clear()
         self._canvas.clear_error()
 
@@ -200,9 +205,9 @@ class Reporter(QObject):
             return
         layer, index, morph = solved
         span = span_of(layer, index)
-        if not morph.report.mirror or span == self._offered:
+        if not morph.report.mirror or span in self._offered:
             return
-        self._offered = span
+        self._offered.add(span)
         self.note(
             self.tr("The target matches far better mirrored."),
             (self.tr("Mirror target"), partial(self._mirror, layer.id, index + 1)),

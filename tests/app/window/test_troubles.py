@@ -239,14 +239,21 @@ def test_the_status_bar_says_what_the_next_click_does(window: MainWindow) -> Non
     assert all(hints)
 
 
+def mirrored_flags(count: int) -> Document:
+    """A flag whose every key is the mirror image of the one before."""
+    flag = [(100, 50), (140, 50), (300, 80), (300, 180), (140, 160), (140, 400), (100, 400)]
+    mirrored = [(700 - x, y) for x, y in reversed(flag)]
+    outlines = (Outline.polygon((flag, mirrored)[k % 2]) for k in range(count))
+    return Document(
+        (Layer(1, "flag", tuple(Keyframe(1 + 24 * k, o) for k, o in enumerate(outlines))),)
+    )
+
+
 def test_a_target_that_matches_far_better_mirrored_is_offered_once_and_mirrored_with_one_click(
     window: MainWindow, qtbot: QtBot
 ) -> None:
     session = window.workspace.session
-    flag = [(100, 50), (140, 50), (300, 80), (300, 180), (140, 160), (140, 400), (100, 400)]
-    mirrored = [(700 - x, y) for x, y in reversed(flag)]
-    keys = Keyframe(1, Outline.polygon(flag)), Keyframe(25, Outline.polygon(mirrored))
-    session.replace(Document((Layer(1, "flag", keys),)))
+    session.replace(mirrored_flags(2))
     before = session.document
     qtbot.waitUntil(lambda: "Mirror target" in mends(window))
     QTest.mouseClick(mends(window)["Mirror target"], LEFT)
@@ -258,6 +265,41 @@ def test_a_target_that_matches_far_better_mirrored_is_offered_once_and_mirrored_
     assert not window.messages.text
     session.undo()
     assert session.document is before
+
+
+def test_each_mirrored_target_is_offered_once_wherever_the_playhead_goes(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    workspace = window.workspace
+    workspace.session.replace(mirrored_flags(3))
+    qtbot.waitUntil(lambda: "Mirror target" in mends(window))
+    window.messages.dismiss()
+    workspace.playhead.move_to(30)
+    qtbot.waitUntil(lambda: "Mirror target" in mends(window))
+    window.messages.dismiss()
+    for frame in (5, 30):
+        workspace.playhead.move_to(frame)
+        qtbot.wait(1)
+        assert not window.messages.text
+
+
+def test_a_note_gives_way_to_what_cannot_be_solved_and_a_refusal_stays_until_it_is_closed(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    window.workspace.session.replace(a_document(crossed=True))
+    qtbot.waitUntil(lambda: bool(window.workspace.solver.errors))
+    for show, stays in (
+        (window.reporter.note, False),
+        (lambda text: window.reporter.show_refusal(EditError(text)), True),
+    ):
+        show("Something happened.")
+        window.workspace.selection.select_mark(None)
+        window.workspace.selection.select_mark(0)
+        qtbot.wait(1)
+        assert ("Something happened." in window.messages.text) == stays
+        if stays:
+            window.messages.dismiss()
+        qtbot.waitUntil(lambda: any(text.startswith("Delete mark") for text in mends(window)))
 
 
 @pytest.mark.parametrize("by", ["mouse", "keys"])
