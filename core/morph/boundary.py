@@ -49,8 +49,16 @@ class MatchedRing:
     """(j,) arc lengths."""
     target_marks: Array
     """(j,) arc lengths, in the same order."""
-    marks: tuple[int, ...]
-    """(j,) indices of the marks, to name them in errors."""
+    marks: tuple[int, ...] = ()
+    """(j,) indices of the artist's marks, to name them in errors; empty if these are proposals."""
+
+    def indices(self, which: Sequence[int] | Indices) -> tuple[int, ...]:
+        """Return the indices of some of the artist's marks, in order."""
+        return tuple(sorted(self.marks[i] for i in which)) if self.marks else ()
+
+    def names(self, which: Sequence[int] | Indices, labels: Sequence[str]) -> list[str]:
+        """Name some marks: proposals by their numbers."""
+        return [labels[self.marks[i]] if self.marks else f"{i + 1}" for i in which]
 
 
 def correspond(
@@ -58,8 +66,8 @@ def correspond(
 ) -> BoundaryPair:
     """Return the common vertices of one ring, no further apart than ``spacing`` (source, target).
 
-    Needs at least one mark. ``labels`` name all marks. Raises ``MarkError`` when marks coincide or
-    their cyclic order differs on the two outlines.
+    Needs at least one mark. ``labels`` name the artist's marks. Raises ``MarkError`` when marks
+    coincide or their cyclic order differs on the two outlines.
     """
     order = np.argsort(ring.source_marks, kind="stable")
     order = np.roll(order, -int(np.argmin(order)))  # from the first mark, wherever the list starts
@@ -110,13 +118,14 @@ def _check_apart(ring: MatchedRing, labels: Sequence[str]) -> None:
         gap = np.diff(np.append(at[order], at[order[0]] + lengths[-1]))
         close = np.flatnonzero(gap < COINCIDENT * lengths[-1])
         if len(at) > 1 and len(close):
-            i, j = order[close[0]], order[(close[0] + 1) % len(order)]
-            pair = sorted((ring.marks[i], ring.marks[j]))
-            place = points_at(points, lengths, at[[i]])[0]
+            pair = sorted((order[close[0]], order[(close[0] + 1) % len(order)]))
+            place = points_at(points, lengths, at[pair[:1]])[0]
             raise MarkError(
-                f"Marks {labels[pair[0]]} and {labels[pair[1]]} lie on the same point"
+                f"Marks {' and '.join(ring.names(pair, labels))} lie on the same point"
                 f" of the {side}.",
-                where=Where(side, point=(float(place[0]), float(place[1])), marks=tuple(pair)),
+                where=Where(
+                    side, point=(float(place[0]), float(place[1])), marks=ring.indices(pair)
+                ),
                 hint="Drag one of them away, or remove it.",
             )
 
@@ -128,28 +137,25 @@ def _check_order(ring: MatchedRing, order: Indices, labels: Sequence[str]) -> No
         return
     for i in np.argsort(order)[::-1]:
         if _descents(np.delete(along, i)) <= 1:
-            wrong: tuple[int, ...] = (ring.marks[order[i]],)
+            wrong = [int(order[i])]
             break
     else:
-        wrong = ring.marks
+        wrong = list(range(len(order)))
     if len(along) > 2 and _descents(along[::-1]) <= 1:
         raise MarkError(
             "The marks run backwards around the target, so the shape would be turned inside out.",
-            where=Where("target", marks=tuple(sorted(ring.marks))),
+            where=Where("target", marks=ring.indices(order)),
             hint="Mirror the target, or set its marks in the same direction as on the source.",
         )
-    names = ", ".join(labels[i] for i in sorted(wrong))
     here, there = (
-        " ".join(labels[ring.marks[i]] for i in np.argsort(at))
+        " ".join(ring.names(np.argsort(at), labels))
         for at in (ring.source_marks, ring.target_marks)
     )
-    place = points_at(ring.target, arc_lengths(ring.target), along)[
-        [ring.marks[i] for i in order].index(wrong[0])
-    ]
+    place = points_at(ring.target, arc_lengths(ring.target), ring.target_marks[wrong[:1]])[0]
     raise MarkError(
         f"Marks run in another order around the target ({there}) than around the source ({here}).",
-        where=Where("target", point=(float(place[0]), float(place[1])), marks=tuple(sorted(wrong))),
-        hint=f"Move or remove mark{'s' if len(wrong) > 1 else ''} {names}.",
+        where=Where("target", point=(float(place[0]), float(place[1])), marks=ring.indices(wrong)),
+        hint=f"Move or remove mark{'s'[: len(wrong) > 1]} {', '.join(ring.names(wrong, labels))}.",
     )
 
 

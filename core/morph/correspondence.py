@@ -255,8 +255,7 @@ def _proposed(source: Array, target: Array, rings: tuple[int, int], match: RingM
         ProposedMark(rings, (s, t), c)
         for s, t, c in zip(here.tolist(), there.tolist(), confidence.tolist(), strict=True)
     )
-    numbers = tuple(range(len(here)))
-    return MarkedRing(MatchedRing(source, target, here, there, numbers), proposed, match)
+    return MarkedRing(MatchedRing(source, target, here, there), proposed, match)
 
 
 def _shifted(source: Array, target: Array, pair: RingPair) -> RingMatch:

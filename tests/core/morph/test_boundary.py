@@ -98,3 +98,19 @@ def test_marks_on_top_of_each_other_are_refused_by_name():
     source = ellipse(30)
     with pytest.raises(MarkError, match="Marks a and c lie on the same point of the target"):
         correspond(matched(source, source, [0, 1, 2], [0, 1, 0]), (1, 1), LABELS)
+
+
+@pytest.mark.parametrize(
+    ("places", "name"),
+    [
+        ([0, 1, 0], "1 and 3 lie on the same point"),
+        ([0, 2, 1, 3], "another order"),
+        ([3, 2, 1, 0], "backwards"),
+    ],
+)
+def test_proposals_that_contradict_each_other_are_named_by_their_numbers(places, name):
+    source, own = ellipse(30), np.arange(len(places), dtype=float)
+    ring = MatchedRing(source, source, own, np.array(places, dtype=float))
+    with pytest.raises(MarkError, match=name) as caught:
+        correspond(ring, (1, 1), [])
+    assert caught.value.where.marks == ()
