@@ -114,14 +114,20 @@ def _check_recipe(recipe: Recipe) -> None:
 
 def _check_rings(source: CleanOutline, target: CleanOutline) -> None:
     a, b = len(source.rings) - 1, len(target.rings) - 1
-    if a != b:
-        side, more, extra = ("source", source, b + 1) if a > b else ("target", target, a + 1)
-        point = more.rings[extra][0]
-        raise SolveError(
-            f"The source has {a or 'no'} hole{'' if a == 1 else 's'}, the target {b or 'none'}.",
-            where=Where(side, ring=extra, point=(float(point[0]), float(point[1]))),
-            hint=f"Add a hole to the other outline, or remove hole {extra} of the {side}.",
-        )
+    if a == b:
+        return
+    side, other, end = ("source", "target", source) if a > b else ("target", "source", target)
+    first, last = min(a, b) + 1, max(a, b)
+    point = end.rings[first][0]
+    lacking, spare = "a hole", f"hole {last}"
+    if first < last:
+        through = "and" if first + 1 == last else "to"
+        lacking, spare = f"{abs(a - b)} holes", f"holes {first} {through} {last}"
+    raise SolveError(
+        f"The source has {a or 'no'} hole{'s'[: a != 1]}, the target {b or 'none'}.",
+        where=Where(side, ring=first, point=(float(point[0]), float(point[1]))),
+        hint=f"Add {lacking} to the {other}, or remove {spare} of the {side}.",
+    )
 
 
 def _stages(

@@ -58,6 +58,23 @@ def test_unequal_numbers_of_holes_are_refused():
 
 
 @pytest.mark.parametrize(
+    ("source", "target", "hint"),
+    [
+        (1, 0, "Add a hole to the target, or remove hole 1 of the source."),
+        (1, 2, "Add a hole to the source, or remove hole 2 of the target."),
+        (3, 1, "Add 2 holes to the target, or remove holes 2 and 3 of the source."),
+        (0, 3, "Add 3 holes to the source, or remove holes 1 to 3 of the target."),
+    ],
+)
+def test_holes_without_partners_are_named_as_many_as_there_are(source, target, hint):
+    sheet = np.array([[0, 0], [8, 0], [8, 2], [0, 2]], dtype=float)
+    holes = [np.array([[0, 0], [0, 1], [1, 1]]) / 2 + [2 * k + 0.5, 0.5] for k in range(3)]
+    with pytest.raises(core.SolveError) as caught:
+        core.solve([sheet, *holes[:source]], [sheet, *holes[:target]])
+    assert caught.value.hint == hint
+
+
+@pytest.mark.parametrize(
     "recipe", [{"density": 0}, {"density": 10**9}, {"mu": 0.0}, {"lam": -1.0}, {"mu": np.nan}]
 )
 def test_a_recipe_that_makes_no_sense_is_refused(recipe):
