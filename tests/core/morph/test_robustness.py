@@ -101,6 +101,7 @@ def test_any_two_shapes_of_any_size_anywhere_give_a_sound_morph(pair):
 
 
 @pytest.mark.sweep
+@pytest.mark.timeout(900)
 @settings(max_examples=600)
 @given(pairs())
 def test_many_pairs_of_shapes_give_a_sound_morph(pair):
