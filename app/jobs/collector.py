@@ -26,7 +26,7 @@ class Collector(QObject):
         self._timer.start()
 
     def collect(self) -> None:
-        """Collect the oldest generation that is due, as Python itself would, and the younger."""
+        """Collect the oldest generation that is due by Python's own limits, and the younger."""
         due = [
             count > limit for count, limit in zip(gc.get_count(), gc.get_threshold(), strict=True)
         ]

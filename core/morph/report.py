@@ -49,7 +49,9 @@ class Report:
     """Smallest angle of any triangle at either end, in radians."""
     iterations: tuple[Iteration, ...]
     mirror: bool
-    """Whether the mirror image of the target would match the source far better."""
+    """Whether the mirror image of the target would match the source far better, which is told only
+    where the map distorts a lot (``POOR`` in ``pipeline.py``).
+    """
     repairs: tuple[Repair, ...]
     """What was changed in the outlines so that they could be used."""
     stages: tuple[Stage, ...]

@@ -56,7 +56,7 @@ def frame_parts(morph: core.Morph, repeats: int) -> dict[str, float]:
     assert isinstance(frame, Rigid)
     ideal = frame.ideal(0.37)
     load = frame.fit.load(ideal)
-    moments = cycle(np.linspace(0.1, 0.9, 101))  # the last frame asked for is remembered
+    moments = cycle(np.linspace(0.1, 0.9, 101))  # what a frame costs depends on its moment
     return {
         "ideal gradients": milliseconds(lambda: frame.ideal(0.37), repeats),
         "  of that, turning": milliseconds(lambda: phasor(0.37 * frame.ideal.theta), repeats),
