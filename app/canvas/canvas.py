@@ -157,7 +157,6 @@ class Canvas(QWidget):
     def _refresh(self) -> None:
         """Show what changed: while the playhead moves within a span, the panes of keys stay."""
         self._refresh_due = False
-        self._keep_patience()
         before, self._moment = self._moment, moment_of(self._workspace, patient=not self._late)
         keys_stay = before is not None and before.span == self._moment.span
         for pane in self._shown_panes():
@@ -165,6 +164,7 @@ class Canvas(QWidget):
                 pane.look(self._moment, self._error)
         self._tool.look_again()
         self._after_tool()
+        self._keep_patience()  # last, for it is by looking that frames are found to be missing
 
     def _keep_patience(self) -> None:
         """Do not dim what is there in a moment: it would only flicker."""

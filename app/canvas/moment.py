@@ -56,8 +56,8 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     document, frame = workspace.session.document, workspace.playhead.frame
     layer = workspace.selection.layer
 
-    def state_of(layer: Layer) -> SpanState:
-        state = workspace.solver.state(layer.id, layer.span_at(frame)[0])
+    def state_of(layer: Layer, span: int) -> SpanState:
+        state = workspace.solver.state(layer.id, span)
         return SpanState.SOLVED if patient and state is SpanState.SOLVING else state
 
     late = {other.id for other in document.moving if _late(workspace, other, frame)}
@@ -65,14 +65,20 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
         other.id
         for other in document.layers
         if other.progress_at(frame)[1] not in (0.0, 1.0)  # an easing may also overshoot
-        and state_of(other) is not SpanState.SOLVED
+        and state_of(other, other.span_at(frame)[0]) is not SpanState.SOLVED
     }
     stale = frozenset(stale if patient else stale | late)
-    stale |= {
-        other.id
-        for other in document.layers
-        if not stale.isdisjoint(carrier.id for carrier in document.carriers(other))
-    }
+
+    def astray(carrier: Layer) -> bool:
+        """Whether what hangs on a layer may be elsewhere: it is followed through all spans."""
+        return carrier.id in stale or any(
+            state_of(carrier, span) is not SpanState.SOLVED
+            for span in range(carrier.spans)
+            if not carrier.easing_of(span).hold
+        )
+
+    hanging = [other for other in document.layers if other.key_at(frame) is None]
+    stale |= {other.id for other in hanging if any(map(astray, document.carriers(other)))}
     if layer is None or not layer.spans:
         return Moment(document, frame, layer, stale=stale)
     span, t = layer.span_at(frame)
@@ -91,7 +97,7 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
         s,
         morph,
         positions,
-        state_of(layer),
+        state_of(layer, span),
         layer.id in late,
         stale,
         None if check is None else moved(check.places),

@@ -8,10 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.canvas.moment import Role, moment_of, picture_on_screen
+from app.jobs.solver import SpanState
 from core.model import Keyframe, Layer, Outline
 from core.model.edits import move_nodes
 from core.morph.morph import Morph
@@ -19,6 +21,7 @@ from core.morph.scene import picture_at, solve_span
 from tests.app.canvas.conftest import Hand, a_document
 
 IN_BETWEEN = Role.IN_BETWEEN
+FAILED, SOLVED = SpanState.FAILED, SpanState.SOLVED
 
 
 class Makers:
@@ -125,6 +128,24 @@ def test_a_frame_that_is_not_there_yet_is_said_to_be_until_it_comes(
     qtbot.waitUntil(up_to_date(hand))
 
 
+def test_a_frame_that_does_not_come_is_dimmed_after_a_while_and_no_longer_than_that(
+    hand: Hand, makers: Makers, qtbot: QtBot
+):
+    def colour() -> QColor:
+        view = hand.pane(IN_BETWEEN).view
+        return view.grab().toImage().pixelColor(hand.pixel(IN_BETWEEN, (450, 300)))
+
+    qtbot.waitUntil(at_rest(hand), timeout=20_000)
+    show(hand, 7)
+    there = colour()
+    makers.gate.clear()
+    show(hand, 7.5)
+    assert colour() == there
+    qtbot.waitUntil(lambda: colour() != there)
+    makers.gate.set()
+    qtbot.waitUntil(lambda: colour() == there)
+
+
 def test_what_hangs_on_a_frame_that_is_not_there_yet_is_not_there_either(
     makers: Makers, open_canvas: Callable[..., Hand], qtbot: QtBot
 ):
@@ -140,3 +161,23 @@ def test_what_hangs_on_a_frame_that_is_not_there_yet_is_not_there_either(
     makers.gate.set()
     qtbot.waitUntil(up_to_date(hand))
     assert not moment_of(hand.workspace).stale
+
+
+def test_what_hangs_on_a_layer_is_stale_unless_it_is_solved_all_the_way(
+    open_canvas: Callable[..., Hand], qtbot: QtBot
+):
+    """A hat drawn at frame 1 is not where it belongs at frame 40 while frames 1 to 25 fail."""
+    document = a_document(marks=False)
+    card, hat = document.layers[0], Outline.polygon([(400, 100), (500, 100), (500, 150)])
+    card = replace(card, keyframes=(*card.keyframes, replace(card.keyframes[0], frame=49)))
+    hung = Layer(2, "hat", (Keyframe(1, hat),), carrier=1)
+    hand = open_canvas(replace(document, layers=(card, hung)), solve=solve_span)
+    workspace = hand.workspace
+    workspace.playhead.move_to(40)
+    assert not moment_of(workspace).stale
+    workspace.session.apply("Twist", move_nodes, 1, 0, 0, [0], (400, 100))
+    qtbot.waitUntil(lambda: not workspace.solver.busy, timeout=20_000)
+    assert [workspace.solver.state(1, span) for span in (0, 1)] == [FAILED, SOLVED]
+    assert moment_of(workspace).stale == {2}
+    workspace.playhead.move_to(1)  # where it was drawn
+    assert not moment_of(workspace).stale
