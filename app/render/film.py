@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import overload
+from functools import partial
+from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 import numpy as np
 
@@ -13,7 +13,12 @@ from core.io.exporters import Track
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.model.picture import Picture
-from core.morph.scene import MorphOf, carrying, layer_rings, picture_at, span_of
+from core.morph.scene import Carry, MorphOf, carrying, layer_rings, picture_at, span_of
+
+if TYPE_CHECKING:
+    from core.morph.morph import Morph
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,9 +34,10 @@ class DocumentFilm:
     @property
     def pictures(self) -> Sequence[Picture]:
         """Every frame as it is seen."""
-        return _Pictures(self)
+        first, last = self.frames
+        return _Computed(self.picture, range(first, last + 1))
 
-    @cached_property
+    @property
     def tracks(self) -> Sequence[Track]:
         """The meshes of the visible layers, one a span."""
         return [
@@ -45,46 +51,49 @@ class DocumentFilm:
 
     def _of(self, layer: Layer) -> Iterator[Track]:
         first, last = self.frames
-        by_span: dict[int, dict[int, float]] = {}
+        by_span: dict[int, list[int]] = {}
         for frame in range(first, last + 1):
-            span, s = layer.progress_at(frame)
-            by_span.setdefault(span, {})[frame] = s
+            by_span.setdefault(layer.span_at(frame)[0], []).append(frame)
         carry = carrying(self.document, self.morph_of)
-        for span, progress in by_span.items():
-            frames = list(progress)
+        for span, frames in by_span.items():
             morph = self.morph_of(span_of(layer, span)) if layer.spans else None
             times = [(frame - 1) / self.document.fps for frame in frames]
             if morph is None:  # one keyframe: there is no mesh
-                shown = [layer_rings(self.document, layer, f, self.morph_of) for f in frames]
-                positions, rings = np.stack([np.concatenate(rings) for rings in shown]), shown[0]
-                triangles = np.empty((0, 3), dtype=int)
-                boundary = _consecutive(rings)
+                rings = layer_rings(self.document, layer, frames[0], self.morph_of)
+                triangles, boundary = np.empty((0, 3), dtype=int), _consecutive(rings)
+                place = partial(self._outline, layer)
             else:
-                positions = np.stack(
-                    [carry(layer, frame)(morph.at(s)) for frame, s in progress.items()]
-                )
                 triangles, boundary = morph.triangles, morph.rings
-            yield Track(layer.name, positions, triangles, boundary, frames, times)
+                place = partial(_vertices, layer, morph, carry)
+            yield Track(layer.name, _Computed(place, frames), triangles, boundary, frames, times)
+
+    def _outline(self, layer: Layer, frame: int) -> Array:
+        """Return the vertices of a layer without a mesh, ring after ring."""
+        return np.concatenate(layer_rings(self.document, layer, frame, self.morph_of))
 
 
-class _Pictures(Sequence[Picture]):
-    """Pictures that are computed when they are asked for, so that a long film needs no memory."""
+def _vertices(layer: Layer, morph: Morph, carry: Carry, frame: int) -> Array:
+    """Return the vertices of a layer's mesh at a frame."""
+    return carry(layer, frame)(morph.at(layer.progress_at(frame)[1]))
 
-    def __init__(self, film: DocumentFilm) -> None:
-        self._film = film
-        self._frames = range(film.frames[0], film.frames[1] + 1)
+
+class _Computed(Sequence[T], Generic[T]):
+    """One item a frame, computed when it is asked for, so that a long film needs no memory."""
+
+    def __init__(self, compute: Callable[[int], T], frames: Sequence[int]) -> None:
+        self._compute, self._frames = compute, frames
 
     def __len__(self) -> int:
         return len(self._frames)
 
     @overload
-    def __getitem__(self, index: int) -> Picture: ...
+    def __getitem__(self, index: int) -> T: ...
     @overload
-    def __getitem__(self, index: slice) -> list[Picture]: ...
-    def __getitem__(self, index: int | slice) -> Picture | list[Picture]:
+    def __getitem__(self, index: slice) -> list[T]: ...
+    def __getitem__(self, index: int | slice) -> T | list[T]:
         if isinstance(index, slice):
-            return [self._film.picture(frame) for frame in self._frames[index]]
-        return self._film.picture(self._frames[index])
+            return [self._compute(frame) for frame in self._frames[index]]
+        return self._compute(self._frames[index])
 
 
 def _consecutive(rings: Sequence[Array]) -> tuple[Array, ...]:

@@ -21,6 +21,7 @@ from core.io import importers
 from core.io.exporters.svg import drawing
 from core.model import Document, Easing, Keyframe, Layer, Outline, Style
 from core.model.picture import Picture, Shape
+from core.morph.morph import Morph
 from core.morph.scene import picture_at
 from core.progress import silent
 
@@ -194,6 +195,18 @@ def test_vertex_tracks_hold_the_frames_of_each_span_once() -> None:
             [shape] = film.picture(frame).shapes
             gap = np.abs(positions[ring][:, None] - shape.rings[0]).max(axis=2).min(axis=0)
             assert gap.max() < 1e-9
+
+
+def test_no_frame_of_a_track_is_made_before_it_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shown, made, at = document(Easing(), Easing()), [], Morph.at
+    film = DocumentFilm(shown, (1, 5), solve_all(shown).get)
+    monkeypatch.setattr(Morph, "at", lambda morph, s: made.append(s) or at(morph, s))
+    [track] = film.tracks
+    assert made == []
+    assert track.positions[2] is not None
+    assert made == [0.5]
 
 
 def test_a_layer_with_one_keyframe_is_a_track_without_triangles() -> None:

@@ -19,8 +19,8 @@ class Track:
 
     layer: str
     """The layer's name."""
-    positions: Array
-    """(frames, n, 2)"""
+    positions: Sequence[Array]
+    """(frames,) of (n, 2) vertices; each may be computed when it is asked for."""
     triangles: Sequence[Sequence[int]]
     """(m, 3) vertex indices."""
     rings: Sequence[Sequence[int]]

@@ -59,15 +59,20 @@ class VertexFormat:
         if not tracks:
             raise FileError("There is no mesh to export.")
         names = []
+        done, total = 0, sum(len(track.frames) for track in tracks)
         with staging(folder) as draft:
             for i, track in enumerate(tracks):
-                progress(i / len(tracks), f"Mesh {i + 1} of {len(tracks)}")
+                positions = []
+                for k in range(len(track.frames)):
+                    progress((done + k) / total, f"Mesh {i + 1} of {len(tracks)}")
+                    positions.append(track.positions[k])
+                done += len(positions)
                 name = (
                     f"{stem}{self.suffix}" if len(tracks) == 1 else f"{stem}-{i + 1}{self.suffix}"
                 )
                 write_vertices(
                     draft / name,
-                    track.positions,
+                    positions,
                     track.triangles,
                     track.rings,
                     track.times,

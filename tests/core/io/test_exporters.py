@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -214,6 +215,29 @@ def test_each_mesh_has_its_own_archive(
     with np.load(paths[-1]) as found:
         assert found["layer"] == tracks[-1].layer
         assert found["frames"].tolist() == [3, 4, 5]
+
+
+def test_vertex_frames_can_be_cancelled_before_each_and_leave_nothing(tmp_path: Path) -> None:
+    class Made(list[np.ndarray]):
+        count = 0
+
+        def __getitem__(self, index: int) -> np.ndarray:
+            Made.count += 1
+            return super().__getitem__(index)
+
+    film, fractions = Film(), []
+    film.tracks = [replace(track(), positions=Made(track().positions)) for _ in range(2)]
+
+    def progress(fraction: float, stage: str) -> None:
+        fractions.append(fraction)
+        if len(fractions) > 5:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        VERTICES.export(film, tmp_path, "x", None, progress)
+    assert fractions == [k / 6 for k in range(6)]
+    assert Made.count == 5
+    assert names(tmp_path) == []
 
 
 def test_a_film_without_meshes_has_no_vertices(tmp_path: Path) -> None:
