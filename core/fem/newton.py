@@ -16,7 +16,7 @@ from scipy.sparse import csc_array, csc_matrix, triu
 
 from core.fem.elements import Elements, determinants
 from core.fem.energies import Density, Derivatives
-from core.geometry.rotation import Complex, signed_singular_values, turn_and_mirror
+from core.geometry.rotation import Complex, signed_singular_values, turn_and_mirror, unit
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -138,7 +138,7 @@ def density_terms(elements: Elements, density: Density, x: Array) -> Terms:
     turn, mirror = turn_and_mirror(elements.deformation_gradients(x))
     s1, s2 = np.abs(turn) + np.abs(mirror), np.abs(turn) - np.abs(mirror)
     d = density.derivatives(s1, s2)
-    modes = _modes(elements.hats, _unit(turn), _unit(mirror))
+    modes = _modes(elements.hats, unit(turn), unit(mirror))
     stress = d.d1 * modes[0] + d.d2 * modes[1]
     eigenmodes = _weighted_eigenmodes(d, s1, s2, modes) * np.sqrt(elements.areas)
     value = float(elements.areas @ density.value(s1, s2))
@@ -215,11 +215,6 @@ def step_to_flat(elements: Elements, x: Array, direction: Array) -> float:
         roots = np.stack([q / a, c / q])
     real = (b * b - 4 * a * c >= 0) & np.isfinite(roots) & (roots > 0)
     return float(roots[real].min(initial=np.inf))
-
-
-def _unit(z: Complex) -> Complex:
-    size = np.abs(z)
-    return np.where(size > 0, z / np.where(size > 0, size, 1), 1)
 
 
 def _modes(hats: Complex, turn: Complex, mirror: Complex) -> Array:

@@ -23,24 +23,6 @@ def to_points(z: Complex) -> Array:
     return z.view(float).reshape(-1, 2)
 
 
-def polar(F: Array) -> tuple[Array, Array]:
-    """Split F = R(θ) S with S symmetric: (m, 2, 2) → θ (m,) in (-π, π] and S (m, 2, 2).
-
-    R is the rotation closest to F; S has a negative eigenvalue where det F < 0.
-    """
-    theta = np.arctan2(F[:, 1, 0] - F[:, 0, 1], F[:, 0, 0] + F[:, 1, 1])
-    return theta, rotate(-theta, F)
-
-
-def rotate(theta: Array, M: Array) -> Array:
-    """Return R(θ) M for angles (m,) and matrices (m, 2, 2)."""
-    c, s = np.cos(theta)[:, None], np.sin(theta)[:, None]
-    out = np.empty_like(M)
-    out[:, 0] = c * M[:, 0] - s * M[:, 1]
-    out[:, 1] = s * M[:, 0] + c * M[:, 1]
-    return out
-
-
 def phasor(angle: Array) -> Complex:
     """Return exp(i angle) (m,).
 
@@ -52,6 +34,12 @@ def phasor(angle: Array) -> Complex:
     np.subtract(scale, 1, out=out.real)
     np.multiply(half, scale, out=out.imag)
     return out
+
+
+def unit(z: Complex) -> Complex:
+    """Return numbers of size 1 that point as z (m,) does; 1 where z is 0."""
+    size = np.abs(z)
+    return np.where(size > 0, z / np.where(size > 0, size, 1), 1)
 
 
 def turn_and_mirror(F: Array) -> tuple[Complex, Complex]:

@@ -16,12 +16,6 @@ from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
 
-def doubled_areas(points: Array, triangles: Indices) -> Array:
-    """Return (m,) twice the signed areas of triangles (m, 3)."""
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    return cross(b - a, c - a)
-
-
 def folds(points: Array, triangles: Indices) -> Indices:
     """Return the indices of triangles without positive area, exactly."""
     return np.flatnonzero(orientations(points, triangles) <= 0)

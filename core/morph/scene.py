@@ -118,12 +118,6 @@ def timed_span_of(layer: Layer, index: int) -> TimedSpan:
     return TimedSpan(span_of(layer, index), source.frame, target.frame, easing)
 
 
-def spans_of(document: Document) -> list[Span]:
-    """Return every span of every layer, each once."""
-    spans = [span_of(layer, i) for layer in document.layers for i in range(layer.spans)]
-    return list(dict.fromkeys(spans))
-
-
 def solve_span(span: Span, progress: Progress = silent) -> Morph:
     """Solve one span; the errors and progress are those of ``solve_outlines``.
 

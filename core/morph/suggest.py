@@ -85,13 +85,6 @@ def match_outlines(
     )
 
 
-def suggest_for(
-    source: Outline, target: Outline, marks: Marks = ()
-) -> list[tuple[RingPoint, RingPoint, float]]:
-    """Propose the marks that two outlines need besides those they have, with their confidence."""
-    return match_outlines(source, target, marks).proposals()
-
-
 def mate(source: Outline, target: Outline, place: RingPoint, marks: Marks = ()) -> RingPoint:
     """Propose the place on the target that belongs to ``place`` on the source.
 

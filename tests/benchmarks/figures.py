@@ -16,7 +16,7 @@ import numpy as np
 import core
 from core.fem.elements import Elements
 from core.geometry.polyline import signed_area
-from core.geometry.rotation import polar
+from core.geometry.rotation import turn_and_mirror
 from core.morph.motion.motion import Motion
 from core.morph.quality import folds
 from tests.benchmarks.sheet import Panel, application, draw_row, save, stack
@@ -83,7 +83,8 @@ def figure_3_angles() -> list[list[Panel]]:
     morph = core.solve(source, target, [(0, 0), (39, 39), (40, 40), (79, 79)])
     principal = Motion.of("arap", (morph.rest, morph.target), morph.triangles)
     elements = Elements.of(morph.rest, morph.triangles)
-    principal.shape.ideal.theta = polar(elements.deformation_gradients(morph.target))[0]
+    turn, _ = turn_and_mirror(elements.deformation_gradients(morph.target))
+    principal.shape.ideal.theta = np.angle(turn)
     return [
         [_panel(f"{name}, t = {t:.1f}", frame(t), morph) for t in (0.2, 0.4, 0.6, 0.8, 1.0)]
         for name, frame in (("principal angles", principal), ("unwrapped", morph.at))

@@ -12,7 +12,7 @@ import numpy as np
 
 import resources
 from core.io import project
-from core.morph.scene import picture_at, solve_span, spans_of
+from core.morph.scene import picture_at, span_of
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QImage
@@ -25,10 +25,11 @@ def strip(sample: Path) -> QImage:
     """Return frames of a sample, side by side."""
     from PySide6.QtGui import QImage, QPainter
 
+    from app.jobs.solve_all import solve_all
     from app.render.painter import render_image
 
     document = project.load(sample)
-    solved = {span: solve_span(span) for span in spans_of(document)}
+    solved = solve_all(document)
     first, last = document.frames
     image = QImage(COLUMNS * CELL[0], ROWS * CELL[1], QImage.Format.Format_RGB32)
     painter = QPainter(image)
@@ -59,7 +60,8 @@ def window(sample: Path, folder: str) -> QImage:
     space.session.replace(project.load(sample), sample)
     space.playhead.move_to(3.0)
     layers = space.session.document.layers
-    while any(space.solver.morph_of(span) is None for span in spans_of(space.session.document)):
+    spans = [span_of(layer, index) for layer in layers for index in range(layer.spans)]
+    while any(space.solver.morph_of(span) is None for span in spans):
         QApplication.processEvents()
     space.selection.select_layer(layers[-1].id)
     for _ in range(50):

@@ -12,7 +12,7 @@ from typing import Self
 
 import numpy as np
 
-from core.geometry.rotation import Complex, phasor, turn_and_mirror
+from core.geometry.rotation import Complex, phasor, turn_and_mirror, unit
 from core.model.outline import Array
 
 Rates = tuple[Complex | None, Complex | None]
@@ -39,7 +39,7 @@ class Exponent:
         turn, mirror = turn_and_mirror(F)
         mean, half = np.abs(turn), np.abs(mirror)
         high, low = np.log(mean + half), np.log(mean - half)
-        axes = _unit(mirror * np.exp(-1j * theta))
+        axes = unit(mirror * np.exp(-1j * theta))
         return cls(np.stack([(high + low) / 2 + 1j * theta, (high - low) / 2 * axes]))
 
     @property
@@ -60,7 +60,7 @@ class Exponent:
         in the axes of S, the divided differences of the logarithm as factors.
         """
         scale, theta = self.value[0].real, self.value[0].imag
-        shear, axes = np.abs(self.value[1]), _unit(self.value[1])
+        shear, axes = np.abs(self.value[1]), unit(self.value[1])
         high, low = np.exp(scale + shear), np.exp(scale - shear)
         turn, mirror = (high + low) / 2, (high - low) / 2 * axes
         W = rate[0], rate[1] * np.exp(-2j * theta)  # Rᵀ l R
@@ -99,10 +99,5 @@ class PassingGradients:
         B = np.empty_like(E)
         B[:] = growth * phasor(E[0].imag)
         B[0] *= np.cosh(shear)
-        B[1] *= np.sinh(shear) * _unit(E[1])
+        B[1] *= np.sinh(shear) * unit(E[1])
         return B
-
-
-def _unit(z: Complex) -> Complex:
-    size = np.abs(z)
-    return np.where(size > 0, z / np.where(size > 0, size, 1), 1)

@@ -3,10 +3,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.geometry.rotation import (
-    polar,
-    rotate,
     signed_singular_values,
     turn_and_mirror,
+    unit,
     unwrap,
 )
 
@@ -16,10 +15,12 @@ matrices = st.lists(st.floats(-3, 3), min_size=4, max_size=4).map(
 
 
 @given(matrices)
-def test_polar_factors_multiply_back_and_the_stretch_is_symmetric(F):
-    theta, S = polar(F)
-    assert np.allclose(rotate(theta, S), F)
-    assert np.allclose(S, S.transpose(0, 2, 1))
+def test_the_turn_is_the_closest_rotation_scaled(F):
+    turn, _ = turn_and_mirror(F)
+    c, s = unit(turn)[0].real, unit(turn)[0].imag
+    stretch = np.array([[c, s], [-s, c]]) @ F[0]
+    assert np.allclose(stretch, stretch.T)
+    assert np.trace(stretch) >= 0
 
 
 @given(matrices)

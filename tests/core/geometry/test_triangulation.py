@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given, settings
 from shapely import Polygon
 
+from core.fem.elements import Elements
 from core.geometry.triangulation import (
     adjacent_triangles,
     split_chords,
@@ -10,7 +11,7 @@ from core.geometry.triangulation import (
     unique_edges,
 )
 from core.geometry.validate import clean
-from core.morph.quality import doubled_areas, smallest_angle
+from core.morph.quality import smallest_angle
 from tests.core.shapes import comb, ellipse, letter_l, square_ring, star_shaped
 
 
@@ -19,7 +20,7 @@ from tests.core.shapes import comb, ellipse, letter_l, square_ring, star_shaped
 def test_the_triangles_tile_the_outline(points):
     rings = clean([points], "source").rings
     for mesh in (coarse := triangulate(rings, 0.05), split_chords(coarse)):
-        areas = doubled_areas(mesh.points, mesh.triangles) / 2
+        areas = Elements.of(mesh.points, mesh.triangles).areas
         assert (areas > 0).all()
         assert areas.sum() == pytest.approx(Polygon(points).area)
         assert np.array_equal(mesh.points[: len(points)], rings[0])

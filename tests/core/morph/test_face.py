@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import core
+from core.fem.elements import Elements
 from core.morph.pipeline import solve_outlines
-from core.morph.quality import crosses_itself, doubled_areas
+from core.morph.quality import crosses_itself
 from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, square_ring
 
 
@@ -41,7 +42,7 @@ def test_holes_map_to_holes_with_marks_on_them():
     morph = core.solve(source, target, [(0, 0), ((1, 0), (1, 0))])
     assert len(morph.rings) == 2
     assert morph.report.folds_target == ()
-    area = doubled_areas(morph.at(0.5), morph.triangles).sum() / 2
+    area = Elements.of(morph.at(0.5), morph.triangles).areas.sum()
     assert area == pytest.approx(12, rel=1e-6)
 
 

@@ -15,7 +15,7 @@ from core.model import Outline, RingPoint
 from core.model.outline import Ring
 from core.morph.marks.rings import match_rings, mirror_is_better
 from core.morph.pipeline import solve_outlines
-from core.morph.suggest import mate, snap, suggest_for
+from core.morph.suggest import match_outlines, mate, snap
 from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, star_shaped
 
 SEEN = {
@@ -70,7 +70,8 @@ def test_a_mirror_is_offered_for_a_mirrored_shape_only():
 @pytest.mark.parametrize("name", ["horse", "bird", "crown", "teddy", "watch"])
 def test_real_shapes_map_without_folds_and_with_little_distortion(real, name):
     ends = Outline.polygon(real(name, 8)), Outline.polygon(real(name, 9))
-    report = solve_outlines(*ends, [(a, b) for a, b, _ in suggest_for(*ends)]).report
+    proposed = match_outlines(*ends).proposals()
+    report = solve_outlines(*ends, [(a, b) for a, b, _ in proposed]).report
     assert not report.folds_target
     assert report.distortion_mean < 1.5
 
@@ -99,7 +100,7 @@ def test_matches_differ_and_the_best_is_first(real):
 
 def test_marks_lie_on_corners_where_both_have_them():
     stretched = letter_l() * [2, 1]
-    marks = suggest_for(Outline.polygon(letter_l()), Outline.polygon(stretched))
+    marks = match_outlines(Outline.polygon(letter_l()), Outline.polygon(stretched)).proposals()
     corners = [(a.at, b.at) for a, b, confidence in marks if confidence > 0.5]
     assert len(corners) >= 4
     assert all(a == b == int(a) for a, b in corners)
@@ -119,7 +120,7 @@ def test_few_marks_suffice_where_lengths_tell_the_rest():
 
 def test_an_edge_that_takes_another_share_of_the_length_gets_marks_at_its_ends():
     longer = letter_l() + np.array([[0, 0]] * 4 + [[0, 4]] * 2)
-    marks = suggest_for(Outline.polygon(letter_l()), Outline.polygon(longer))
+    marks = match_outlines(Outline.polygon(letter_l()), Outline.polygon(longer)).proposals()
     assert {3.0, 4.0, 5.0} <= {a.at for a, b, _ in marks if a.at == b.at}
 
 
@@ -155,9 +156,10 @@ def test_a_mark_that_contradicts_earlier_ones_is_passed_over():
 
 def test_accepted_marks_do_not_change_the_others(real):
     ends = Outline.polygon(real("dog", 6)), Outline.polygon(real("dog", 7))
-    found = suggest_for(*ends)
+    found = match_outlines(*ends).proposals()
     accepted = [(a, b) for a, b, _ in found[::2]]
-    assert {(a, b) for a, b, _ in suggest_for(*ends, accepted)} <= {(a, b) for a, b, _ in found}
+    others = match_outlines(*ends, accepted).proposals()
+    assert {(a, b) for a, b, _ in others} <= {(a, b) for a, b, _ in found}
 
 
 # -- whole outlines -------------------------------------------------------------------------------
@@ -168,7 +170,7 @@ def test_holes_get_marks_on_the_holes_that_lie_where_they_do():
     turned = [ring @ rotation(1.0).T for ring in (letter_l(), *holes)]
     source = Outline.polygon(letter_l(), *holes)
     target = Outline.polygon(turned[0], turned[3], turned[1], turned[2])
-    assert {(a.ring, b.ring) for a, b, _ in suggest_for(source, target)} == {
+    assert {(a.ring, b.ring) for a, b, _ in match_outlines(source, target).proposals()} == {
         (0, 0),
         (1, 2),
         (2, 3),
@@ -199,7 +201,7 @@ def test_curves_and_either_direction_will_do():
 def test_a_click_on_what_encloses_nothing_still_has_an_answer():
     line, shape = Outline.polygon([[0, 0], [1, 0], [2, 0]]), Outline.polygon(letter_l())
     for source, target in ((line, shape), (shape, line)):
-        assert suggest_for(source, target) == []
+        assert match_outlines(source, target).proposals() == []
         place = mate(source, target, RingPoint(0, 1.0))
         assert 0 <= place.at < tracks(target)[0].nodes
 

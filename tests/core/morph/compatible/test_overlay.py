@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, Polygon
 
+from core.fem.elements import Elements
 from core.geometry.polyline import signed_area
 from core.geometry.triangulation import Mesh, unique_edges
 from core.model.outline import Array
 from core.morph.compatible.chords import chord_sets, crossing
 from core.morph.compatible.overlay import compatible_mesh
-from core.morph.quality import doubled_areas
 from tests.core.morph.polygons import (
     comb,
     disc,
@@ -63,9 +63,9 @@ def check_fits(mesh: Mesh, image: Array, source: Sequence[Array], target: Sequen
     b = sum(map(len, source))
     for points, rings in ((mesh.points, source), (image, target)):
         assert np.array_equal(points[:b], np.concatenate(rings))
-        doubled = doubled_areas(points, mesh.triangles)
-        assert doubled.min() > 0
-        assert doubled.sum() / 2 == pytest.approx(sum(map(signed_area, rings)), rel=1e-9)
+        areas = Elements.of(points, mesh.triangles).areas
+        assert areas.min() > 0
+        assert areas.sum() == pytest.approx(sum(map(signed_area, rings)), rel=1e-9)
     edges, _, count = unique_edges(mesh.triangles)
     border = [np.column_stack([ring, np.roll(ring, -1)]) for ring in mesh.rings]
     assert np.array_equal(np.concatenate(mesh.rings), np.arange(b))
