@@ -73,7 +73,7 @@ class Frames(QObject):
 
     def made(self, morph: Morph) -> Mapping[float, Array]:
         """Return all frames of a solution that are kept, by s."""
-        return dict(self._made.get(morph, {}))
+        return self._made.get(morph, {})
 
     def keep(self, morph: Morph, frames: Mapping[float, Array]) -> None:
         """Keep frames that were made; the oldest give way to them."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from enum import Enum
 from functools import partial
+from math import ceil, floor
 from typing import TYPE_CHECKING
 
+import numpy as np
 from PySide6.QtCore import QObject, Signal, SignalInstance
 
 from app.document.playhead import Playhead
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
     from app.jobs.frames import Instant
     from core.morph.soundness import FrameCheck, SpanCheck
 
+PORTION = 100
+"""Frames that are handed over at one time, to be looked at as far as a piece of work gets."""
 REMEMBERED = 64
 """Checks kept beyond those of the document as it is, so that undo shows at once."""
 
@@ -52,15 +56,25 @@ class _Search:
     """How far the look at a span has come."""
 
     def __init__(self, span: TimedSpan) -> None:
-        self.unseen = dict(span.frames())
-        """s by number."""
+        self.unseen = np.arange(span.first, span.last + 1)
+        """Numbers of frames, in order."""
         self.seen: dict[int, FrameCheck] = {}
 
     def note(self, checks: Iterable[FrameCheck]) -> None:
         """Take note of frames that were looked at."""
-        for check in checks:
-            self.seen[check.frame] = check
-            self.unseen.pop(check.frame, None)
+        found = {check.frame: check for check in checks}
+        self.seen.update(found)
+        self.unseen = np.setdiff1d(self.unseen, list(found), assume_unique=True)
+
+    def next(self, playhead: Playhead, count: int) -> list[int]:
+        """Return so many of the frames that were not looked at, those first that are seen soon.
+
+        They lie around the playhead; while it plays, ahead of it and where it starts again.
+        """
+        here = int(np.searchsorted(self.unseen, playhead.frame))
+        around = self.unseen[max(here - count, count) : here + count]
+        found = np.concatenate([self.unseen[:count], around]).tolist()
+        return sorted(found, key=nearness(playhead))[:count]
 
 
 class Inspector(QObject):
@@ -125,17 +139,18 @@ class Inspector(QObject):
         if (span := self._spans.get(key)) is None:
             return None
         frame = min(max(float(frame), span.first), span.last)
-        beside = [seen for seen in self._seen(key) if abs(seen.frame - frame) < 1]
-        if len(beside) < (1 if frame == int(frame) else 2):
+        beside = [self._seen(key, number) for number in {floor(frame), ceil(frame)}]
+        known = [seen for seen in beside if seen is not None]
+        if len(known) < len(beside):
             return None
-        return max(beside, key=lambda seen: seen.folds + seen.crossings)
+        return max(known, key=lambda seen: seen.folds + seen.crossings)
 
-    def _seen(self, key: Key) -> Collection[FrameCheck]:
-        """Return what was seen in the frames of a span so far."""
+    def _seen(self, key: Key, number: int) -> FrameCheck | None:
+        """Return what was seen in a frame of a span, if it was looked at."""
         if self.standing(*key) is Standing.CHECKING:
-            return self._search(key).seen.values()
+            return self._search(key).seen.get(number)
         check = self.check(*key)
-        return () if check is None else check.frames
+        return None if check is None else check.frames[number - self._spans[key].first]
 
     def error(self, layer_id: int, index: int) -> MorphError | None:
         """Return why a span could not be solved or checked."""
@@ -205,16 +220,17 @@ class Inspector(QObject):
         current, soon = self._selection.layer, nearness(self._playhead)
 
         def urgency(key: Key) -> tuple[bool, float]:
-            return self._session.document.layer(key[0]) is not current, min(
-                map(soon, self._search(key).unseen)
-            )
+            [first] = self._search(key).next(self._playhead, 1)
+            return self._session.document.layer(key[0]) is not current, soon(first)
 
         span = self._spans[min(waiting, key=urgency)]
         search, morph = self._searches[span], self._solver.morph_of(span.span)
         assert morph is not None, "what is checked is solved"
-        unseen = sorted(search.unseen.items(), key=lambda frame: soon(frame[0]))
-        made = self._frames.made(morph)
-        return Task(span, morph, tuple(search.seen.values()), tuple(unseen), made)
+        unseen = [(k, span.progress(k)) for k in search.next(self._playhead, PORTION)]
+        seen = tuple(search.seen.values()) if len(unseen) == len(search.unseen) else None
+        kept = self._frames.made(morph)
+        made = {s: kept[s] for _, s in unseen if s in kept}
+        return Task(span, morph, seen, tuple(unseen), made)
 
     def _search(self, key: Key) -> _Search:
         span = self._spans[key]

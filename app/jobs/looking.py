@@ -21,12 +21,12 @@ PIECE = 0.012
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """The frames of a solved span that are still to be looked at."""
+    """Frames of a solved span that are still to be looked at."""
 
     span: TimedSpan
     morph: Morph
-    seen: tuple[FrameCheck, ...]
-    """What was found in all the others."""
+    seen: tuple[FrameCheck, ...] | None
+    """What was found in all the others; None while more than these are still to be looked at."""
     unseen: tuple[tuple[int, float], ...]
     """Number and s of each, the most urgent first."""
     made: Mapping[float, Array]
@@ -61,7 +61,7 @@ def look(task: Task, progress: Progress) -> Sight:
         if perf_counter() > end:
             break
     verdict = None
-    if len(checks) == len(task.unseen):
+    if task.seen is not None and len(checks) == len(task.unseen):
         verdict = SpanCheck.of(task.span.span, task.morph, (*task.seen, *checks))
     return Sight(frames, tuple(checks), verdict)
 

@@ -62,8 +62,11 @@ class TimedSpan:
 
     def frames(self) -> list[tuple[int, float]]:
         """Return every frame from key to key, and s at it."""
-        length = self.last - self.first
-        return [(self.first + k, self.easing(k / length)) for k in range(length + 1)]
+        return [(frame, self.progress(frame)) for frame in range(self.first, self.last + 1)]
+
+    def progress(self, frame: int) -> float:
+        """Return s at a frame."""
+        return self.easing((frame - self.first) / (self.last - self.first))
 
 
 class Frames(Protocol):

@@ -38,7 +38,10 @@ class Eye:
         if self.broken:
             raise SolveError("The frames could not be looked at.")
         checks = tuple(self._look(k) for k, _ in sorted(task.unseen))
-        return Sight({}, checks, SpanCheck(checks, 0.0, 0.0, one_to_one=self.one_to_one))
+        if task.seen is None:
+            return Sight({}, checks, None)
+        every = tuple(sorted((*task.seen, *checks), key=lambda check: check.frame))
+        return Sight({}, checks, SpanCheck(every, 0.0, 0.0, one_to_one=self.one_to_one))
 
     def _look(self, frame: int) -> FrameCheck:
         crosses = frame in self.crossing

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from itertools import chain
 
 import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
 from app.jobs import looking
-from app.jobs.inspector import REMEMBERED, Standing
+from app.jobs.inspector import PORTION, REMEMBERED, Standing
 from app.jobs.looking import Sight, Task
 from app.verdict import describe_span, troubled_frames
 from app.workspace import Workspace
@@ -150,6 +151,29 @@ def test_frames_near_the_playhead_are_looked_at_first_and_ahead_of_it_while_play
     workspace.playhead.stop()
     here = orders[1][0]
     assert orders[1] == [*range(here, 14), *range(1, here)]
+
+
+def test_of_a_long_span_few_frames_are_handed_over_at_a_time_and_each_once(
+    open_workspace: Callable[..., Workspace], eye: Eye, qtbot: QtBot
+) -> None:
+    tasks: list[Task] = []
+    eye.listen = tasks.append
+    workspace = open_workspace(document(1, 1001), solve, eye)
+    workspace.playhead.move_to(700)
+    qtbot.waitUntil(stands(workspace, Standing.SOUND))
+    orders = [[number for number, _ in task.unseen] for task in tasks]
+    assert max(map(len, orders)) == PORTION
+    assert [*chain(*orders)] == sorted(range(1, 1002), key=lambda k: abs(k - 700))
+    assert [len(task.seen) for task in tasks if task.seen is not None] == [1000]
+    assert [seen.frame for seen in workspace.inspector.check(1, 0).frames] == [*range(1, 1002)]
+    workspace.playhead.move_to(950)
+    workspace.playhead.play()
+    nudge(workspace)
+    qtbot.waitUntil(stands(workspace, Standing.SOUND))
+    workspace.playhead.stop()
+    ahead = [number for number, _ in tasks[len(orders)].unseen]
+    here = ahead[0]
+    assert set(ahead) == set([*range(here, 1002), *range(1, here)][:PORTION])
 
 
 def test_a_look_ends_after_a_while_with_what_it_has_and_another_finishes_it(
