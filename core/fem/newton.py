@@ -14,9 +14,16 @@ import numpy as np
 import qdldl
 from scipy.sparse import csc_array, csc_matrix, triu
 
-from core.fem.elements import Elements, determinants
+from core.fem.elements import Elements
 from core.fem.energies import Density, Derivatives
-from core.geometry.rotation import Complex, signed_singular_values, turn_and_mirror, unit
+from core.geometry.flatness import first_flatness
+from core.geometry.rotation import (
+    Complex,
+    signed_singular_values,
+    to_complex,
+    turn_and_mirror,
+    unit,
+)
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -205,16 +212,8 @@ def safe_length(elements: Elements, x: Array, step: Step) -> float:
 
 def step_to_flat(elements: Elements, x: Array, direction: Array) -> float:
     """Return the smallest t > 0 at which a triangle of x + t · direction is flat, or infinity."""
-    F, G = (elements.deformation_gradients(v) for v in (x, direction))
-    a, c = determinants(G), determinants(F)
-    b = F[:, 0, 0] * G[:, 1, 1] + F[:, 1, 1] * G[:, 0, 0]
-    b -= F[:, 0, 1] * G[:, 1, 0] + F[:, 1, 0] * G[:, 0, 1]
-    root = np.sqrt(np.maximum(b * b - 4 * a * c, 0))
-    q = -(b + np.copysign(root, b)) / 2  # the form of the roots in which nothing cancels
-    with np.errstate(divide="ignore", invalid="ignore"):
-        roots = np.stack([q / a, c / q])
-    real = (b * b - 4 * a * c >= 0) & np.isfinite(roots) & (roots > 0)
-    return float(roots[real].min(initial=np.inf))
+    corners = elements.triangles.T
+    return first_flatness(to_complex(x)[corners], to_complex(direction)[corners])
 
 
 def _modes(hats: Complex, turn: Complex, mirror: Complex) -> Array:

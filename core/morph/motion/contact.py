@@ -11,11 +11,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 from shapely import Polygon
 
+from core.geometry.flatness import times_of_flatness
 from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.motion.barrier import LEFT_ALONE, Derivatives
-from core.morph.motion.guard import times_of_flatness
 
 REACH = 0.01
 """Largest distance at which contact is felt, at unit area."""

@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 
 from core.fem.elements import Elements
+from core.geometry.flatness import areas, first_flatness
 from core.geometry.rotation import Complex
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
@@ -49,7 +50,7 @@ class FoldGuard:
 
     def margins(self, z: Complex, ideal: Array) -> Array:
         """Return det F / det B (m,) at positions z (n,), for ideal determinants (m,)."""
-        return _areas(z[self.triangles.T]) / (self._areas * ideal)
+        return areas(z[self.triangles.T]) / (self._areas * ideal)
 
     def gaps(self, which: Indices, vertices: Indices, ideal: Array) -> TriangleGaps:
         """Return some triangles as gaps between the vertices held, which come in order."""
@@ -69,38 +70,15 @@ class TriangleGaps:
 
     def __call__(self, z: Complex) -> Array:
         """Return the gaps (c,) at positions z (k,)."""
-        return _areas(z[self.corners.T]) / self.felt
+        return areas(z[self.corners.T]) / self.felt
 
     def derivatives(self, z: Complex, which: Indices) -> Derivatives:
         """Return some of the gaps with their derivatives."""
         corners, felt = z[self.corners[which]], self.felt[which]
         opposite = np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1)
         slopes = (-0.5j * opposite / felt[:, None]).view(float)
-        return Derivatives(_areas(corners.T) / felt, slopes, AREA_BEND / felt[:, None, None])
+        return Derivatives(areas(corners.T) / felt, slopes, AREA_BEND / felt[:, None, None])
 
     def free_way(self, z: Complex, step: Complex) -> float:
         """Return a part of a step that stops short of the first flat triangle."""
-        times = times_of_flatness(z[self.corners.T], step[self.corners.T])
-        return SHORT_OF_FLAT * float(times[times > 0].min(initial=np.inf))
-
-
-def times_of_flatness(corners: Complex, step: Complex) -> Array:
-    """Return (2, c) when triangles (3, c) that take a step are flat, not finite where never."""
-    (p, q), (dp, dq) = _edges(corners), _edges(step)
-    a, b, c = _cross(dp, dq), _cross(p, dq) + _cross(dp, q), _cross(p, q)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        half = -(b + np.copysign(np.sqrt(b * b - 4 * a * c), b)) / 2  # so that nothing cancels
-        return np.stack([half / a, c / half])
-
-
-def _areas(corners: Complex) -> Array:
-    """Return signed areas (c,) of triangles (3, c)."""
-    return _cross(*_edges(corners)) / 2
-
-
-def _edges(corners: Complex) -> tuple[Complex, Complex]:
-    return corners[1] - corners[0], corners[2] - corners[0]
-
-
-def _cross(p: Complex, q: Complex) -> Array:
-    return p.real * q.imag - p.imag * q.real
+        return SHORT_OF_FLAT * first_flatness(z[self.corners.T], step[self.corners.T])
