@@ -81,13 +81,16 @@ def figure_3_angles() -> list[list[Panel]]:
     """A limb that curls through more than a full turn: principal angles against unwrapped ones."""
     source, target = (limb(bend, 40, 12, 0.5, curl=2) for bend in (0.0, 8.5))
     morph = core.solve(source, target, [(0, 0), (39, 39), (40, 40), (79, 79)])
-    principal = Motion.of("arap", (morph.rest, morph.target), morph.triangles)
+    shape = Motion.of("arap", (morph.rest, morph.target), morph.triangles).shape
     elements = Elements.of(morph.rest, morph.triangles)
     turn, _ = turn_and_mirror(elements.deformation_gradients(morph.target))
-    principal.shape.ideal.theta = np.angle(turn)
+    shape.ideal.theta = np.angle(turn)
     return [
         [_panel(f"{name}, t = {t:.1f}", frame(t), morph) for t in (0.2, 0.4, 0.6, 0.8, 1.0)]
-        for name, frame in (("principal angles", principal), ("unwrapped", morph.at))
+        for name, frame in (
+            ("principal angles", lambda t: shape.fit(shape.ideal(t))),
+            ("unwrapped", morph.at),
+        )
     ]
 
 

@@ -16,6 +16,7 @@ from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import IdealGradients, LinearStretch, LogStretch
 from core.morph.motion.guard import FoldGuard
 from core.morph.motion.passing import BY_ITSELF, Exponent, PassingGradients, Rates
+from core.morph.motion.series import Series
 from core.morph.motion.sound import Ideal, SoundFrames
 from core.progress import Watch, unwatched
 
@@ -31,10 +32,11 @@ class PlainRigid:
         self.ideal = IdealGradients(F, triangles, before.areas, LinearStretch)
         self.turn, self.theta = self.ideal.turn, self.ideal.theta
         self.fit = GradientFit(before, before.areas[:, None, None] * np.eye(2))
+        self._frames = Series(lambda t: self.fit(self.ideal(t)))
 
     def __call__(self, t: float) -> Array:
         """Return positions (n, 2) at t, vertex 0 at the origin."""
-        return self.fit(self.ideal(t))
+        return self._frames(t)
 
 
 class Rigid:

@@ -24,6 +24,7 @@ from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import determinant
 from core.morph.motion.guard import FoldGuard
 from core.morph.motion.hold import Hold, Wanted
+from core.morph.motion.series import Series
 from core.progress import Watch
 
 SURVEY = 16
@@ -97,7 +98,8 @@ class SoundFrames:
 
         ``turning`` (n,) is how far the shape turns around each vertex.
         """
-        self._ideal, self._turning, self._fit = ideal, turning, fit
+        self._ideal, self._turning = ideal, turning
+        self._fitted = Series(lambda t: fit(ideal(t)))
         self._hold = Hold(fit, guard, contact)
         self._known: dict[Ends, Stretch | None] = {}
         anchors, met = self._survey(watch)
@@ -135,14 +137,13 @@ class SoundFrames:
 
         With it comes what it takes to settle it, if it must be settled.
         """
-        ideal = self._ideal(t)
-        x = self._fit(ideal)
+        x = self._fitted(t)
         if self._departures is not None and 0 < t < 1:
             x += to_points(self._departures(t))
         stretch = self._stretches[bisect_left(self._times, t)]
         if stretch is None:
             return x, None
-        wanted = Wanted(to_complex(x), determinant(ideal))
+        wanted = Wanted(to_complex(x), determinant(self._ideal(t)))
         return x, None if stretch.hold.free(wanted, stretch.pairs) else (wanted, stretch)
 
     def _settled(self, t: float, wanted: Wanted, stretch: Stretch) -> Complex:
@@ -181,8 +182,7 @@ class SoundFrames:
         return anchors
 
     def _plain_anchor(self, t: float) -> Anchor:
-        ideal = self._ideal(t)
-        wanted = Wanted(to_complex(self._fit(ideal)), determinant(ideal))
+        wanted = Wanted(to_complex(self._fitted(t)), determinant(self._ideal(t)))
         return Anchor(t, wanted, phasor(t * self._turning), wanted.fitted)
 
     def _walked(self, last: Sequence[Anchor], plain: Anchor) -> Anchor:

@@ -16,12 +16,13 @@ import pytest
 import shapely
 
 import core
+from core.geometry.crossing import crosses_itself
 from core.io import project
 from core.model import Document, Keyframe, Outline, RingPoint, edits
 from core.morph import solved
 from core.morph.motion.motion import Motion
 from core.morph.pipeline import solve_outlines
-from core.morph.quality import crosses_itself, folds
+from core.morph.quality import folds
 from core.morph.scene import solve_span, span_of
 from tests.benchmarks.measures import UNSEEN, jolt
 from tests.benchmarks.pairs import Pair, across_classes, load_outlines, within_classes
@@ -75,7 +76,8 @@ class Case:
         """Whether any frame departs from its fit."""
         shape = self.morph.inbetween.shape
         return any(
-            not np.array_equal(shape(t), shape.fit(shape.ideal(t))) for t in np.linspace(0, 1, 17)
+            not np.allclose(shape(t), shape.fit(shape.ideal(t)), rtol=0, atol=1e-9)
+            for t in np.linspace(0, 1, 17)
         )
 
     def folded(self, frames: int) -> int:
