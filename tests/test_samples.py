@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from core.geometry.crossing import crosses_itself
 from core.geometry.flatten import flatten
 from core.geometry.location import Located
 from core.io import project
 from core.model import Document, Layer
 from core.morph.morph import Morph
-from core.morph.quality import crosses_itself
 from core.morph.scene import (
     Span,
     carrying,

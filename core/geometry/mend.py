@@ -23,8 +23,9 @@ import shapely
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from shapely import Polygon, STRtree
+from shapely import STRtree
 
+from core.geometry.crossing import crosses_itself
 from core.geometry.origin import Origin
 from core.geometry.polyline import cross, signed_area
 from core.model.outline import Array
@@ -110,7 +111,7 @@ def mend(rings: Sequence[Array], origins: Sequence[Origin], most_lost: float) ->
     walks.orient()
     for hair in HAIRS:
         found = walks.opened(hair)
-        if Polygon(found.rings[0], found.rings[1:]).is_valid and separate(found.rings):
+        if not crosses_itself(found.rings) and separate(found.rings):
             return Mended(
                 *found,
                 hair,

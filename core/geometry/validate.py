@@ -15,6 +15,7 @@ from shapely import LinearRing, Polygon, STRtree
 from shapely.validation import explain_validity
 
 from core.errors import OutlineError, Repair, Where
+from core.geometry.crossing import crosses_itself
 from core.geometry.mend import BeyondRepair, Mended, mend, separate
 from core.geometry.origin import Origin
 from core.geometry.polyline import arc_lengths, signed_area
@@ -219,7 +220,7 @@ def _no_area(ring: Array, side: str, index: int) -> OutlineError:
 
 
 def _is_clean(rings: Sequence[Array]) -> bool:
-    return Polygon(rings[0], rings[1:]).is_valid and separate(rings)
+    return not crosses_itself(rings) and separate(rings)
 
 
 def _mended(rings: Sequence[Array], origins: Sequence[Origin], unit: _Unit, side: str) -> Mended:

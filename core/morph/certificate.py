@@ -18,9 +18,10 @@ from typing import Self
 
 import numpy as np
 
+from core.geometry.crossing import crosses_itself
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
-from core.morph.quality import crosses_itself, folds
+from core.morph.quality import folds
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,8 @@
-"""How good a map or a frame is: folds, distortion, angles, a boundary that crosses itself."""
+"""How good a map or a frame is: folds, distortion, angles."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
-from shapely import Polygon
 
 from core.fem.elements import Elements
 from core.fem.energies import SymmetricDirichlet
@@ -36,8 +33,3 @@ def smallest_angle(points: Array, triangles: Indices) -> float:
     before = np.roll(corners, 1, axis=1) - corners
     across, along = cross(after, before), np.einsum("maj,maj->ma", after, before)
     return float(np.arctan2(np.abs(across), along).min())
-
-
-def crosses_itself(rings: Sequence[Array]) -> bool:
-    """Whether closed polylines (k, 2), exterior first, cross themselves or each other."""
-    return not Polygon(rings[0], rings[1:]).is_valid

@@ -14,12 +14,12 @@ from typing import Self
 import numpy as np
 
 from core.errors import MarkError, SolveError
+from core.geometry.crossing import crosses_itself
 from core.geometry.validate import CleanOutline
 from core.model import Recipe
 from core.model.outline import Array
 from core.morph.correspondence import Correspondence
 from core.morph.mapping import Map, direct_map, mended_map
-from core.morph.quality import crosses_itself
 from core.morph.report import Stage
 from core.morph.sliding import slide
 from core.progress import Watch

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.geometry.crossing import crosses_itself
 from core.geometry.polyline import arc_lengths, signed_area
-from core.morph.quality import crosses_itself
 from tests.benchmarks.pairs import Rings
 
 

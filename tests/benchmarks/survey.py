@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 
 import core
+from core.geometry.crossing import crosses_itself
 from core.model import Recipe
 from core.morph.pipeline import solve_outlines
-from core.morph.quality import crosses_itself, folds
+from core.morph.quality import folds
 from tests.benchmarks.drift import Drift
 from tests.benchmarks.flubber import Flubber
 from tests.benchmarks.given_marks import solve_given_marks

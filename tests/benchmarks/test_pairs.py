@@ -2,8 +2,8 @@
 
 import pytest
 
+from core.geometry.crossing import crosses_itself
 from core.model import Outline
-from core.morph.quality import crosses_itself
 from tests.benchmarks.holes import hole_pairs
 from tests.benchmarks.icons import icon_pairs
 from tests.benchmarks.pairs import across_classes, kind, within_classes

@@ -9,8 +9,8 @@ from typing import Self
 
 import numpy as np
 from scipy.spatial import cKDTree
-from shapely import Polygon
 
+from core.geometry.crossing import crosses_itself
 from core.geometry.flatness import times_of_flatness
 from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
@@ -57,8 +57,7 @@ class Contact:
 
     def crosses(self, z: Complex) -> bool:
         """Whether the boundary crosses itself at positions z (n,)."""
-        rings = [to_points(z[ring]) for ring in self._rings]
-        return not Polygon(rings[0], rings[1:]).is_valid
+        return crosses_itself([to_points(z[ring]) for ring in self._rings])
 
     def corners(self, pairs: Indices) -> Indices:
         """Return (c, 3): each pair's vertex and both ends of its edge."""

@@ -5,8 +5,8 @@ import pytest
 
 import core
 from core.fem.elements import Elements
+from core.geometry.crossing import crosses_itself
 from core.morph.pipeline import solve_outlines
-from core.morph.quality import crosses_itself
 from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, square_ring
 
 
