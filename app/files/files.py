@@ -12,7 +12,7 @@ from app.files import dialogs
 from app.files.export_dialog import export_frames
 from app.files.export_form import Subject
 from app.files.import_dialog import Choice, ask_parts
-from app.files.placing import Place, add_layers, add_pair, misplaced, set_key
+from app.files.placing import Place, add_layers, add_poses, misplaced, set_key
 from app.settings import Settings
 from app.workspace import Workspace
 from core.errors import FileError
@@ -142,18 +142,17 @@ class Files(QObject):
         """Import from files; with a choice of parts, and of what they become, if there is one."""
         notes: list[str] = []
         try:
-            parts = [part for path in paths for part in importers.read(path, notes.append)]
+            files = [importers.read(path, notes.append) for path in paths]
         except FileError as error:
             self.failed.emit(error)
             return
         self._settings.set_folder("import", paths[0].absolute().parent)
         document, layer = self._session.document, self._selection.layer
-        if len(parts) == 1 and layer is None:
-            choice: Choice | None = Choice(
-                tuple(parts), Place.LAYERS, misplaced(parts, document.size)
-            )
+        if layer is None and len(files) == len(files[0]) == 1:
+            fit = misplaced(files[0], document.size)
+            choice: Choice | None = Choice(tuple(files[0]), Place.LAYERS, fit)
         else:
-            choice = ask_parts(self._window, parts, document, layer)
+            choice = ask_parts(self._window, files, document, layer)
         if choice is not None:
             self._place(choice)
             if notes:
@@ -165,8 +164,8 @@ class Files(QObject):
         if choice.fit:
             parts = fitted(parts, document.size)
         text = self.tr("Import {name}").format(name=parts[0].name)
-        if choice.place in (Place.LAYERS, Place.PAIR):
-            add = add_pair if choice.place is Place.PAIR else add_layers
+        if choice.place in (Place.LAYERS, Place.POSES):
+            add = add_poses if choice.place is Place.POSES else add_layers
             if self._session.apply(text, add, parts, document.frames[0]):
                 self._selection.select_layer(self._session.document.layers[-1].id)
         elif layer is not None:

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.files.placing import Place, largest, misplaced, subjects
+from app.files.placing import Place, likely, misplaced
 from app.thumbnails import outline_thumbnail
 from core.io.importers import Part
 from core.model import Document, Layer, Style
@@ -38,10 +38,10 @@ class Choice:
 
 
 def ask_parts(
-    parent: QWidget, parts: Sequence[Part], document: Document, layer: Layer | None
+    parent: QWidget, files: Sequence[Sequence[Part]], document: Document, layer: Layer | None
 ) -> Choice | None:
-    """Ask which parts to import, and as what; None when the artist changed their mind."""
-    dialog = ImportDialog(parts, document, layer, parent)
+    """Ask which parts of files to import, and as what; None when the artist changed their mind."""
+    dialog = ImportDialog(files, document, layer, parent)
     accepted = dialog.exec() == QDialog.DialogCode.Accepted
     choice = dialog.choice() if accepted else None
     dialog.deleteLater()
@@ -53,19 +53,19 @@ class ImportDialog(QDialog):
 
     def __init__(
         self,
-        parts: Sequence[Part],
+        files: Sequence[Sequence[Part]],
         document: Document,
         layer: Layer | None,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._parts, self._layer = list(parts), layer
+        self._parts, self._layer = [part for parts in files for part in parts], layer
         self._chosen: list[int] = []
         self.setWindowTitle(self.tr("Import"))
         self.list = self._list()
         self._radios = {place: QRadioButton() for place in Place}
         self.fit = QCheckBox(self.tr("&Fit to the artboard"))
-        self.fit.setChecked(misplaced(parts, document.size))
+        self.fit.setChecked(misplaced(self._parts, document.size))
         self.fit.setToolTip(self.tr("Scale and move all parts together to the middle"))
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         self._import = self.buttons.addButton(
@@ -75,7 +75,7 @@ class ImportDialog(QDialog):
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
         self._lay_out()
-        self._choose_first(document)
+        self._choose_first(document, likely(files))
 
     def choice(self) -> Choice:
         """Return what is chosen now."""
@@ -108,7 +108,8 @@ class ImportDialog(QDialog):
         column = QVBoxLayout(self)
         column.setContentsMargins(16, 16, 16, 16)
         column.setSpacing(6)
-        question = QLabel(self.tr("Which shapes do you want? Ctrl+click chooses several."))
+        text = self.tr("Which shapes do you want? Ctrl+click chooses several, Ctrl+A all.")
+        question = QLabel(text)
         question.setVisible(len(self._parts) > 1)
         column.addWidget(question)
         column.addWidget(self.list, 1)
@@ -123,17 +124,16 @@ class ImportDialog(QDialog):
         grid = self.list.gridSize()
         self.list.setMinimumSize(columns * grid.width() + 28, rows * grid.height() + 8)
 
-    def _choose_first(self, document: Document) -> None:
+    def _choose_first(self, document: Document, wanted: Sequence[int]) -> None:
         """Start with what is most likely meant."""
-        wanted = subjects(self._parts)
-        for i in wanted if len(wanted) <= 2 else [largest(self._parts, wanted)]:
+        for i in wanted:
             self.list.item(i).setSelected(True)
-        likely = Place.LAYERS
-        if self._layer is not None and not self._layer.spans and len(self._chosen) == 1:
-            likely = Place.TARGET
-        elif not document.layers and len(self._chosen) == 2:
-            likely = Place.PAIR
-        self._radios[likely].setChecked(True)
+        place = Place.LAYERS
+        if self._layer is not None and not self._layer.spans and len(wanted) == 1:
+            place = Place.TARGET
+        elif not document.layers and len(wanted) > 1:
+            place = Place.POSES
+        self._radios[place].setChecked(True)
         self._on_selected()
 
     def _on_selected(self) -> None:
@@ -146,7 +146,7 @@ class ImportDialog(QDialog):
         one = count == 1 and self._layer is not None
         offers = {
             Place.LAYERS: (self._layers_text(count), count > 0),
-            Place.PAIR: (self._pair_text(), count == 2),
+            Place.POSES: (self._poses_text(), count > 1),
             Place.SOURCE: (self.tr("The &source of “{name}”").format(name=name), one),
             Place.TARGET: (self.tr("The &target of “{name}”").format(name=name), one),
         }
@@ -160,7 +160,7 @@ class ImportDialog(QDialog):
 
     def _ever(self, place: Place) -> bool:
         """Return whether a place can come up at all."""
-        if place is Place.PAIR:
+        if place is Place.POSES:
             return len(self._parts) > 1
         return place is Place.LAYERS or self._layer is not None
 
@@ -169,9 +169,13 @@ class ImportDialog(QDialog):
             return self.tr("A new &layer")
         return self.tr("{count} new &layers").format(count=count)
 
-    def _pair_text(self) -> str:
-        if len(self._chosen) != 2:
-            return self.tr("One layer that turns one shape into the other (choose two)")
+    def _poses_text(self) -> str:
+        count = len(self._chosen)
+        if count < 2:
+            return self.tr("One layer that turns one shape into the other (choose two or more)")
+        if count > 2:
+            text = self.tr("&One layer with {count} keyframes, in the order they were chosen")
+            return text.format(count=count)
         first, second = (_plain(self._parts[i].name) for i in self._chosen)
         text = self.tr("&One layer that turns “{first}” into “{second}”")
         return text.format(first=first, second=second)

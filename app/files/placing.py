@@ -23,8 +23,8 @@ class Place(Enum):
     """What the imported parts become."""
 
     LAYERS = "layers"
-    PAIR = "pair"
-    """Two parts: the first and the last keyframe of one new layer."""
+    POSES = "poses"
+    """The keyframes of one new layer, one after the other."""
     SOURCE = "source"
     TARGET = "target"
 
@@ -35,6 +35,22 @@ def misplaced(parts: Sequence[Part], size: tuple[float, float]) -> bool:
     width, height = size
     outside = left < -width / 2 or top < -height / 2 or right > 1.5 * width or bottom > 1.5 * height
     return outside or max((right - left) / width, (bottom - top) / height) < TINY
+
+
+def likely(files: Sequence[Sequence[Part]]) -> list[int]:
+    """Return which parts, counted through all files, are wanted most likely.
+
+    Of several files, the main part of each, which are poses; of one, a pair or the main part.
+    """
+    wanted: list[int] = []
+    before = 0
+    for parts in files:
+        found = subjects(parts)
+        if len(files) > 1 or len(found) > 2:
+            found = [largest(parts, found)]
+        wanted += [before + i for i in found]
+        before += len(parts)
+    return wanted
 
 
 def subjects(parts: Sequence[Part]) -> list[int]:
@@ -68,11 +84,14 @@ def add_layers(document: Document, parts: Sequence[Part], frame: int) -> Documen
     return document
 
 
-def add_pair(document: Document, parts: Sequence[Part], frame: int) -> Document:
-    """Add one layer that turns the first part into the second."""
-    first, second = parts
+def add_poses(document: Document, parts: Sequence[Part], frame: int) -> Document:
+    """Add one layer that goes from part to part."""
+    first, *others = parts
     document = add_layers(document, [first], frame)
-    return draw_key(document, document.layers[-1].id, frame + TARGET_AFTER, second.outline)
+    for number, part in enumerate(others, start=1):
+        then = frame + number * TARGET_AFTER
+        document = draw_key(document, document.layers[-1].id, then, part.outline)
+    return document
 
 
 def set_key(document: Document, layer_id: int, place: Place, part: Part, frame: float) -> Document:

@@ -43,7 +43,12 @@ def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
 
     FileError when it cannot be read or holds no shape.
     """
-    path = Path(path)
+    path, said = Path(path), list[str]()
+
+    def tell(text: str) -> None:
+        said.append(text)
+        warn(text)
+
     found = next((f for f in FORMATS if path.suffix.lower() in f.suffixes), None)
     try:
         if found is None:
@@ -51,9 +56,10 @@ def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
             raise FileError(f"The format is not known; it can be {known}.")
         if path.stat().st_size > MAX_BYTES:
             raise FileError(f"The file is larger than {MAX_BYTES >> 20} MB.")
-        parts = found.read(path.read_bytes(), path.stem, warn)
+        parts = found.read(path.read_bytes(), path.stem, tell)
         if not parts:
-            raise FileError("The file holds no shape with an area.")
+            why = " ".join(dict.fromkeys(said))
+            raise FileError("The file holds no shape with an area.", hint=why)
         return parts
     except OSError as error:
         raise unreadable(path, error) from error

@@ -242,7 +242,7 @@ def test_two_parts_become_one_layer_that_turns_one_into_the_other(
     window: MainWindow, artist: Artist, svg: Path
 ) -> None:
     box, ball = importers.read(svg)
-    artist["open"], artist["parts"] = svg, Choice((box, ball), Place.PAIR, fit=False)
+    artist["open"], artist["parts"] = svg, Choice((box, ball), Place.POSES, fit=False)
     press(window, "Ctrl+I")
     (layer,) = window.workspace.session.document.layers
     assert [key.outline for key in layer.keyframes] == [box.outline, ball.outline]
@@ -275,19 +275,19 @@ def test_the_import_dialog_offers_what_fits_the_number_chosen(
 ) -> None:
     draw(window)
     document = window.workspace.session.document
-    dialog = ImportDialog(importers.read(svg), document, document.layers[0], window)
+    dialog = ImportDialog([importers.read(svg)], document, document.layers[0], window)
     qtbot.addWidget(dialog)
     radios = dialog._radios
     dialog.list.clearSelection()
     dialog.list.item(1).setSelected(True)
-    assert not radios[Place.PAIR].isEnabled()
+    assert not radios[Place.POSES].isEnabled()
     assert radios[Place.TARGET].isEnabled()
     dialog.list.item(0).setSelected(True)
-    assert radios[Place.PAIR].isEnabled()
+    assert radios[Place.POSES].isEnabled()
     assert not radios[Place.TARGET].isEnabled()
-    radios[Place.PAIR].click()
+    radios[Place.POSES].click()
     assert [part.name for part in dialog.choice().parts] == ["ball", "box"]
-    assert dialog.choice().place is Place.PAIR
+    assert dialog.choice().place is Place.POSES
 
 
 ICON = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 512 512">
@@ -301,7 +301,7 @@ def test_an_icon_is_wanted_without_its_backdrop_and_can_be_seen(
     (tmp_path / "icon.svg").write_text(ICON)
     document = window.workspace.session.document
     parts = importers.read(tmp_path / "icon.svg")
-    dialog = ImportDialog(parts, document, document.layers[0], window)
+    dialog = ImportDialog([parts], document, document.layers[0], window)
     qtbot.addWidget(dialog)
     assert dialog.choice().parts == (parts[1],)
     assert dialog.choice().place is Place.TARGET
@@ -314,9 +314,26 @@ def test_of_many_shapes_the_largest_is_chosen_at_first(window: MainWindow, qtbot
         importers.Part(f"s{size}", Outline.polygon([(0, 0), (size, 0), (0, size)]))
         for size in (10, 90, 30)
     ]
-    dialog = ImportDialog(parts, Document(), None, window)
+    dialog = ImportDialog([parts], Document(), None, window)
     qtbot.addWidget(dialog)
     assert [part.name for part in dialog.choice().parts] == ["s90"]
+
+
+def test_files_dropped_together_are_the_poses_of_one_layer(
+    window: MainWindow, artist: Artist, tmp_path: Path, qtbot: QtBot
+) -> None:
+    for name, left in (("crouch", 100), ("leap", 200), ("land", 300)):
+        (tmp_path / f"{name}.svg").write_text(ICON.replace("M100 400", f"M{left} 400"))
+    paths = [tmp_path / f"{name}.svg" for name in ("crouch", "leap", "land")]
+    dialog = ImportDialog([importers.read(path) for path in paths], Document(), None, window)
+    qtbot.addWidget(dialog)
+    artist["parts"] = choice = dialog.choice()
+    assert [part.name for part in choice.parts] == ["crouch 2", "leap 2", "land 2"]
+    assert choice.place is Place.POSES
+    drop(window, *paths)
+    (layer,) = window.workspace.session.document.layers
+    assert [key.frame for key in layer.keyframes] == [1, 25, 49]
+    assert [key.outline for key in layer.keyframes] == [part.outline for part in choice.parts]
 
 
 def test_an_emoji_in_units_of_its_own_is_fitted_to_the_artboard(

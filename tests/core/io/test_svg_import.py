@@ -199,14 +199,14 @@ def test_white_on_white_gets_a_colour_that_shows() -> None:
     assert white.style_on("").fill == "#ffffff"
 
 
-def test_parts_are_named_by_label_title_or_id_or_else_counted() -> None:
+def test_parts_are_named_by_label_title_or_id_or_else_by_the_drawing() -> None:
     body = (
         '<circle r="5" id="i"/><circle r="5" id="j"><title>T</title></circle>'
         '<circle r="5" inkscape:label="L" id="k"/><circle r="5"/><rect width="5" height="5"/>'
         '<path d="M0 0h9v9zM20 0h9v9z"/><rect id="i" width="5" height="5"/>'
     )
     names = [found.name for found in parts(body)]
-    assert names == ["i", "T", "L", "circle 4", "rect 1", "path 1 (1)", "path 1 (2)", "i (2)"]
+    assert names == ["i", "T", "L", "file 4", "file 5", "file 6 (1)", "file 6 (2)", "i (2)"]
 
 
 def test_the_only_shape_of_a_drawing_is_named_after_the_file() -> None:
@@ -284,10 +284,11 @@ def test_entities_that_multiply_without_end_are_refused() -> None:
     assert "not well-formed SVG" in refusal(text)
 
 
-def test_a_drawing_without_shapes_is_refused(tmp_path: Path) -> None:
+def test_a_drawing_without_shapes_is_refused_with_what_was_left_out(tmp_path: Path) -> None:
     (tmp_path / "a.svg").write_text(f"<svg {NAMESPACES}><text>no</text></svg>")
-    with pytest.raises(FileError, match="no shape with an area"):
+    with pytest.raises(FileError, match="no shape with an area") as refused:
         importers.read(tmp_path / "a.svg")
+    assert "turn it into paths" in refused.value.hint
 
 
 @given(st.text("MmLlCcQqAaZzHhVvSsTt0123456789.-, e", max_size=40))

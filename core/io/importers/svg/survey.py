@@ -6,7 +6,6 @@ titles; so the tree is checked and prepared here.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -40,7 +39,7 @@ _UNSUPPORTED_ATTRIBUTES = {
 def survey(data: bytes, name: str, warn: Warn) -> bytes:
     """Check an SVG file and return it with names on its shapes; FileError if it is no SVG.
 
-    ``name`` is for a shape that is the only one and has none of its own.
+    ``name`` is that of the drawing, for shapes that have none of their own.
     """
     try:
         root = ElementTree.fromstring(data)
@@ -97,16 +96,13 @@ def _check_budget(root: Element) -> None:
         raise FileError(f"The drawing has more than {MAX_ELEMENTS} elements.")
 
 
-def _name_shapes(root: Element, only: str) -> None:
-    """Name every shape by its label, title or id, or else by its kind and number."""
-    numbers: Counter[str] = Counter()
+def _name_shapes(root: Element, drawing: str) -> None:
+    """Name every shape by its label, title or id, or else by the drawing it is in."""
     shapes = [element for element in root.iter() if _tag(element) in SHAPES]
-    for element in shapes:
-        tag = _tag(element)
-        numbers[tag] += 1
+    for number, element in enumerate(shapes, start=1):
         title = next((child.text for child in element if _tag(child) == "title"), None)
         name = element.get(LABEL) or (title or "").strip() or element.get("id")
-        element.set(NAME, name or (only if len(shapes) == 1 else f"{tag} {numbers[tag]}"))
+        element.set(NAME, name or (drawing if len(shapes) == 1 else f"{drawing} {number}"))
 
 
 def _drop_broken_paths(root: Element, warn: Warn) -> None:
