@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Key = tuple[int, int]
 """Layer id and span index."""
 
-UNSEEN = 1e-8
+UNSEEN = 1e-4
 """A repair that moved less than this fraction of an outline is not worth a word."""
 
 

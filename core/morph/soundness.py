@@ -141,8 +141,7 @@ def _end_error(outline: Outline, morph: Morph, s: float) -> float:
     points = morph.at(s)
     drawn = [line.points for line in flatten(outline)]
     found = [points[ring] for ring in morph.rings]
-    left, top, right, bottom = outline.bounds()
-    size = float(np.hypot(right - left, bottom - top))
+    size = float(np.hypot(*np.ptp(np.concatenate(drawn), axis=0)))
     return max(_farthest(drawn, found), _farthest(found, drawn)) / size
 
 

@@ -129,3 +129,12 @@ def test_curves_are_measured_where_they_were_flattened() -> None:
     span, morph = solved(round_one, round_one.transformed([[2, 0], [0, 2]]))
     found = check_span(span, morph, FRAMES)
     assert max(found.source_error, found.target_error) <= 1e-9
+
+
+def test_the_repair_of_an_outline_that_bulges_beyond_its_nodes_is_no_fault() -> None:
+    points = np.array([[0, 0], [0, 60], [-1e-4, 0]])  # it comes back on the wrong side of its start
+    before, after = np.array([[0, 0], [-40, 0], [40, 0]]), np.array([[-40, 0], [40, 0], [0, 0]])
+    drop = Outline((Ring(points, before.astype(float), after.astype(float)),))
+    span, morph = solved(drop, drop.transformed(np.eye(2), [9, 0]))
+    assert morph.report.repairs
+    assert check_span(span, morph, FRAMES).exact
