@@ -12,8 +12,8 @@ from app.canvas.camera import Camera
 from app.canvas.hand import HAND_KEYS, Hand
 from app.canvas.moment import Moment, Role, moment_of
 from app.canvas.pane import Pane
+from app.canvas.panes import Panes
 from app.canvas.pointer import Pointer
-from app.canvas.splitter import PaneSplitter
 from app.canvas.tools.freehand import FreehandTool
 from app.canvas.tools.marks import MarksTool
 from app.canvas.tools.nodes import NodesTool
@@ -25,8 +25,6 @@ from app.workspace import Workspace
 from core.errors import Trouble
 
 SIDE_BY_SIDE = (Role.SOURCE, Role.IN_BETWEEN, Role.TARGET)
-SHARES = {Role.SOURCE: 4, Role.IN_BETWEEN: 5, Role.TARGET: 4, Role.OVERLAY: 1}
-"""Widths of the panes that are shown together, in parts."""
 TOOLS: tuple[type[Tool], ...] = (SelectTool, NodesTool, PenTool, FreehandTool, MarksTool)
 PULSES, PULSE_MS = 3, 600
 PATIENCE_MS = 250
@@ -57,10 +55,12 @@ class Canvas(QWidget):
         self.camera = Camera(self)
         self._tools = {tool.name: tool(workspace, self) for tool in TOOLS}
         self._tool = self._tools[SelectTool.name]
-        self._splitter = PaneSplitter(self)
-        self.panes = {role: Pane(role, workspace, self.camera, self._splitter) for role in Role}
+        self.panes = {role: Pane(role, workspace, self.camera, self) for role in Role}
+        self._arranged = Panes(self.panes, self)
         self._hand = Hand(self.camera, [pane.view for pane in self.panes.values()])
-        self._lay_out()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self._arranged)
         self._late = False
         self._patience = QTimer(self, singleShot=True, interval=PATIENCE_MS)
         self._patience.timeout.connect(self._on_late)
@@ -158,6 +158,7 @@ class Canvas(QWidget):
         """Show what changed: while the playhead moves within a span, the panes of keys stay."""
         self._refresh_due = False
         before, self._moment = self._moment, moment_of(self._workspace, patient=not self._late)
+        self._arranged.show_board(self._moment.document.size)
         keys_stay = before is not None and before.span == self._moment.span
         for pane in self._shown_panes():
             if pane.live or not keys_stay:
@@ -198,14 +199,15 @@ class Canvas(QWidget):
             pane.error_ring.set_pulse(pulse)
 
     def _shown_panes(self) -> list[Pane]:
-        overlay = self._workspace.view.layout == "overlay"
-        roles = (Role.OVERLAY,) if overlay else SIDE_BY_SIDE
-        return [self.panes[role] for role in roles]
+        return [self.panes[role] for role in self._shown_roles()]
+
+    def _shown_roles(self) -> tuple[Role, ...]:
+        return (Role.OVERLAY,) if self._workspace.view.layout == "overlay" else SIDE_BY_SIDE
 
     def _show_layout(self) -> None:
-        shown = self._shown_panes()
-        self._splitter.show_panes(shown)
-        self.setFocusProxy(shown[len(shown) // 2].view)
+        roles = self._shown_roles()
+        self._arranged.show_panes(roles)
+        self.setFocusProxy(self.panes[roles[len(roles) // 2]].view)
 
     def _on_view_changed(self) -> None:
         if any(pane.isHidden() for pane in self._shown_panes()):
@@ -346,10 +348,3 @@ class Canvas(QWidget):
             view.key_released.connect(self._on_key_released)
             view.focus_changed.connect(self._on_focus_changed)
             view.resized.connect(self._on_resized)
-
-    def _lay_out(self) -> None:
-        for role, share in SHARES.items():
-            self._splitter.add_pane(self.panes[role], share)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self._splitter)
