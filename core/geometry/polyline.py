@@ -25,6 +25,13 @@ def arc_lengths(points: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.hypot(edges[:, 0], edges[:, 1]))])
 
 
+def inner_angles(points: Array) -> Array:
+    """Return (n,) the angle at each vertex, on the left of the polyline, in [0, 2π)."""
+    after, before = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points
+    angles = np.arctan2(cross(after, before), np.einsum("ij,ij->i", after, before))
+    return np.mod(angles, 2 * np.pi)
+
+
 def points_at(points: Array, lengths: Array, at: Array) -> Array:
     """Return (k, 2) points at arc lengths (k,), taken modulo the perimeter.
 

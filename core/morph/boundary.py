@@ -12,13 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.errors import MarkError, Where
-from core.geometry.polyline import arc_lengths, points_at
+from core.geometry.polyline import arc_lengths, inner_angles, points_at
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
 SNAP = 0.2
 """Source and target vertices closer than this fraction of the spacing become one: more would tell
 in the distortion, less in the angles."""
+NARROW, BESIDE = np.radians(22), 0.75
+"""A corner narrower than this is not to be shared by two triangles, so it becomes one with a corner
+of the other outline, if there is any within this fraction of the spacing."""
 STEEP = 5.0
 """How much longer than its neighbour an edge may be."""
 MOST_SPLITS = 64
@@ -78,6 +81,7 @@ def correspond(
     source, target = map(_Curve, outlines, (at[order[0]] for at in marks))
     anchors = np.column_stack([at[order] - at[order[0]] for at in marks])
     anchors = np.mod(anchors, [source.perimeter, target.perimeter])
+    anchors = _pointed(anchors, source, target, BESIDE * np.array(spacing))
     anchors = _joined(anchors, source, target, reach)
     pairs = _densified(_union(anchors, source, target), source, target, spacing)
     pairs = _graded(pairs, source, target)
@@ -97,6 +101,8 @@ class _Curve:
         self.vertices = from_start[order]
         """(n,) increasing arc lengths of the vertices."""
         self._corners = points[order]
+        self.angles = inner_angles(points)[order]
+        """(n,) radians inside the outline, at its vertices."""
 
     def points_at(self, at: Array) -> Array:
         """Return the points (k, 2) at arc lengths (k,); a vertex's own gives it to the last bit."""
@@ -166,6 +172,35 @@ def _descents(values: Array) -> int:
 
 def _closed(anchors: Array, source: _Curve, target: _Curve) -> Array:
     return np.vstack([anchors, [[source.perimeter, target.perimeter]]])
+
+
+def _pointed(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Array:
+    """Add corners of both outlines as anchors (k, 2) where one of them is narrow.
+
+    It then belongs to a single triangle, unless the other is too blunt. The narrowest come first.
+    """
+    ways = (source, target, slice(None)), (target, source, slice(None, None, -1))
+    narrow = [
+        (angle, at, other, way)
+        for curve, other, way in ways
+        for angle, at in zip(curve.angles, curve.vertices, strict=True)
+        if angle < NARROW
+    ]
+    for angle, at, other, way in sorted(narrow, key=lambda corner: corner[:2]):
+        here, there = _closed(anchors, source, target)[:, way].T
+        if not len(_between(np.array([at]), here)[0]):
+            continue
+        image, back = np.interp(at, here, there), np.interp(other.vertices, there, here)
+        away = np.column_stack([back - at, other.vertices - image])[:, way]
+        after = np.searchsorted(here, at)
+        near = (there[after - 1] < other.vertices) & (other.vertices < there[after])
+        near &= (np.abs(away) <= reach).all(axis=1)
+        left = np.minimum(np.minimum(angle, other.angles), (np.pi - other.angles) / 2)
+        best = np.lexsort((other.angles, -np.where(near, left, 0)))[0]
+        if near[best] and left[best] > angle / 2:
+            pair = np.array([at, other.vertices[best]])[way]
+            anchors = np.insert(anchors, np.searchsorted(anchors[:, 0], pair[0]), pair, axis=0)
+    return anchors
 
 
 def _joined(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Array:

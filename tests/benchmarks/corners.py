@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.geometry.polyline import cross
+from core.geometry.polyline import inner_angles
 
 MOST_TRIANGLES = 6
 """At one corner: a full turn of equilateral ones."""
@@ -21,15 +21,8 @@ def allowed_angle(source: Sequence[np.ndarray], target: Sequence[np.ndarray]) ->
     """
     bounds = []
     for ends in zip(source, target, strict=True):
-        angles = np.array([_inner_angles(ring) for ring in ends])
+        angles = np.degrees([inner_angles(ring) for ring in ends])
         narrow, wide = angles.min(axis=0), angles.max(axis=0)
         k = np.arange(1, MOST_TRIANGLES + 1)[:, None]
         bounds.append(np.minimum(narrow / k, (180 - wide / k) / 2).max(axis=0))
     return float(np.concatenate(bounds).min())
-
-
-def _inner_angles(ring: np.ndarray) -> np.ndarray:
-    """Return (k,) degrees, in [0, 360)."""
-    after, before = np.roll(ring, -1, axis=0) - ring, np.roll(ring, 1, axis=0) - ring
-    angle = np.arctan2(cross(after, before), np.einsum("ki,ki->k", after, before))
-    return np.degrees(angle) % 360

@@ -3,7 +3,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.geometry.polyline import arc_lengths, nearest_length, points_at, resample, signed_area
+from core.geometry.polyline import (
+    arc_lengths,
+    inner_angles,
+    nearest_length,
+    points_at,
+    resample,
+    signed_area,
+)
 from tests.core.shapes import ellipse, letter_l, star_shaped
 
 
@@ -14,6 +21,15 @@ def test_area_is_positive_when_x_turns_towards_y_and_negative_backwards():
 
 def test_area_does_not_suffer_far_from_the_origin():
     assert signed_area(letter_l() + 1e9) == pytest.approx(7, rel=1e-6)
+
+
+def test_the_inner_angles_of_an_l_are_right_but_one_is_reflex():
+    assert np.degrees(inner_angles(letter_l())) == pytest.approx([90, 90, 90, 270, 90, 90])
+
+
+@given(star_shaped())
+def test_inner_angles_sum_up_to_half_a_turn_for_each_vertex_but_two(points):
+    assert inner_angles(points).sum() == pytest.approx((len(points) - 2) * np.pi)
 
 
 @given(star_shaped())

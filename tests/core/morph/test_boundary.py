@@ -62,6 +62,21 @@ def test_vertices_that_nearly_meet_are_joined(count):
         assert step.min() > 0.15 * np.diff(arc_lengths(source)).max()
 
 
+def spike(tip):
+    """Return a square with a narrow spike on top, whose tip lies at x = ``tip``."""
+    return np.array([[-2, 0], [2, 0], [2, 2], [0.2, 2], [tip, 4], [-0.2, 2], [-2, 2]], dtype=float)
+
+
+@pytest.mark.parametrize(("spacing", "together"), [(1.0, True), (0.1, False)])
+def test_narrow_corners_meet_where_they_are_near_each_other(spacing, together):
+    source, target = spike(0), spike(0)
+    source[3], target[5] = [0.2, 1.5], [-0.2, 1.5]  # by arc length the tips would miss each other
+    marks = [arc_lengths(ring)[:2] for ring in (source, target)]
+    pair = correspond(matched(source, target, *marks), (spacing, spacing), LABELS)
+    here, there = ((points == [0, 4]).all(axis=1) for points in (pair.source, pair.target))
+    assert np.array_equal(here, there) == together
+
+
 @given(star_shaped(), star_shaped(), st.floats(1e-7, 1), st.floats(0.05, 1))
 def test_no_step_is_much_longer_than_the_one_beside_it(source, target, at, spacing):
     source = np.insert(source, 1, (1 - at) * source[0] + at * source[1], axis=0)
