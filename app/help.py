@@ -27,7 +27,7 @@ ON_THE_CANVAS = (
     ("Middle drag   H   Space", "Move the view"),
     ("Enter", "Close the outline"),
     ("Esc", "Leave a drawing, then the tool"),
-    ("Arrows", "Move what is selected; Shift: ten times as far"),
+    ("Arrows", "Move what was clicked; Shift: ten times as far"),
     ("Del", "Delete what is selected"),
 )
 COLUMNS = 3

@@ -282,7 +282,6 @@ class Canvas(QWidget):
                 return self._tool.abandon
             if self.tool != SelectTool.name and not self._workspace.playhead.playing:
                 return self._put_tool_away
-            return None
         if key in ARROWS and not any(pane.key is not None for pane in self._focused_panes()):
             return None  # in the in-between there is nothing to nudge, and time to step through
         return self._tool.key(key, modifiers)

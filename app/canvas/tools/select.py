@@ -74,6 +74,9 @@ class SelectTool(Tool):
         super().__init__(workspace, parent)
         self._handle: int | None = None
         self._over: int | None = None
+        self._taken: tuple[int, int] | None = None
+        """The outline that the arrow keys move, by layer id and key: the one pressed last."""
+        workspace.playhead.moved.connect(self._let_go)
 
     def hover(self, pointer: Pointer) -> None:
         """Find the handle or the layer under the mouse."""
@@ -95,6 +98,7 @@ class SelectTool(Tool):
 
     def grab(self, pointer: Pointer) -> Gesture | None:
         """Take a handle, or else the shape under the mouse."""
+        self._taken = None
         handle = self._handle_at(pointer)
         if handle is None:
             layer_id = self._layer_at(pointer)
@@ -111,13 +115,18 @@ class SelectTool(Tool):
         )
         box = TransformBox.around(keyframe.outline)
         key = pointer.pane.key
+        self._taken = layer.id, key
         return Transform(self.session, text, layer.id, key, box, handle, pointer.position)
 
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
-        """Nudge the outline with the arrow keys."""
+        """Nudge the outline that was taken, or let go of it; else arrows step through time."""
         step = arrow_step(key, modifiers)
         layer = self.layer
-        if step is None or layer is None:
+        if layer is None or self._taken != (layer.id, self.selection.key):
+            return None
+        if key == Qt.Key.Key_Escape:
+            return self._let_go
+        if step is None:
             return None
         return lambda: self._nudge(layer.id, self.selection.key, step)
 
@@ -132,7 +141,19 @@ class SelectTool(Tool):
         if self._over is not None and self._over != self.selection.layer.id:
             name = self.session.document.layer(self._over).name
             return self.tr("Click to select the layer “{name}”").format(name=name)
+        if self._taken is not None:
+            return self.tr("Drag or arrow keys move the outline, Shift by 10; Esc lets go of it")
         return self.tr("Drag the outline to move it, or a handle to scale or rotate it")
+
+    def put_away(self) -> None:
+        """Let go of the outline."""
+        super().put_away()
+        self._let_go()
+
+    @property
+    def seen(self) -> object:
+        """Which outline is taken."""
+        return self._taken
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint the box of the key that is edited in the pane."""
@@ -147,8 +168,12 @@ class SelectTool(Tool):
         top, rotator = (frame[0] + frame[1]) / 2, box.rotator(pane.view)
         painter.setPen(pen(accent, 1.2))
         painter.drawLine(QPointF(*top), QPointF(*rotator))
-        draw_nodes(painter, box.handles(pane.view), accent)
-        draw_nodes(painter, rotator[None], accent, smooth=True, size=5.0)
+        taken = self._taken == (self.selection.layer.id, pane.key)
+        draw_nodes(painter, box.handles(pane.view), accent, selected=taken)
+        draw_nodes(painter, rotator[None], accent, smooth=True, selected=taken, size=5.0)
+
+    def _let_go(self) -> None:
+        self._taken = None
 
     def _nudge(self, layer_id: int, key: int, step: Array) -> None:
         edit = edits.transform_outline

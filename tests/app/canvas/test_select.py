@@ -102,11 +102,39 @@ def test_the_round_handle_rotates_about_the_middle_and_shift_in_steps(hand: Hand
     assert hand.steps == ["Rotate outline"]
 
 
-def test_arrow_keys_move_the_outline_of_the_pane_in_focus(hand: Hand):
+def test_arrow_keys_move_the_outline_that_was_clicked(hand: Hand):
+    hand.click(TARGET, INSIDE)
     hand.key(TARGET, Qt.Key.Key_Left)
     hand.key(TARGET, Qt.Key.Key_Up, SHIFT)
     np.testing.assert_allclose(hand.points(1), np.add(LEANING, (-1, -10)))
     assert np.array_equal(hand.points(0), SQUARE)
+
+
+def test_arrow_keys_move_nothing_that_was_not_clicked(hand: Hand):
+    hand.key(TARGET, Qt.Key.Key_Left)
+    hand.click(SOURCE, INSIDE)
+    hand.key(TARGET, Qt.Key.Key_Left)
+    assert hand.steps == []
+
+
+@pytest.mark.parametrize("let_go", ["Esc", "a click beside it", "another frame", "another tool"])
+def test_arrow_keys_move_an_outline_no_more_after(let_go: str, hand: Hand):
+    hand.click(SOURCE, INSIDE)
+    assert "arrow keys" in hand.canvas.hint
+    match let_go:
+        case "Esc":
+            hand.key(SOURCE, Qt.Key.Key_Escape)
+        case "a click beside it":
+            hand.click(SOURCE, (50, 50))
+        case "another frame":
+            hand.workspace.playhead.step(1)
+        case "another tool":
+            hand.canvas.set_tool("marks")
+            hand.canvas.set_tool("select")
+    hand.key(SOURCE, Qt.Key.Key_Left)
+    assert hand.steps == []
+    assert hand.canvas.tool == "select"
+    assert "arrow keys" not in hand.canvas.hint
 
 
 def test_a_click_selects_the_topmost_layer_under_the_mouse(open_canvas):
