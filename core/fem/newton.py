@@ -9,21 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import qdldl
 from scipy.sparse import csc_array, csc_matrix, triu
 
-from core.fem.elements import Elements
+from core.fem.elements import CORNER_PAIRS, Elements
 from core.fem.energies import Density, Derivatives
 from core.geometry.flatness import first_flatness
-from core.geometry.rotation import (
-    Complex,
-    signed_singular_values,
-    to_complex,
-    turn_and_mirror,
-    unit,
-)
+from core.geometry.rotation import Complex, to_complex
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
@@ -36,8 +31,14 @@ GROWTH = 1.5
 REGULARISATION = 1e-10
 """Added to the Hessian's diagonal, relative to its largest entry."""
 
-PAIRS = np.triu_indices(6)
-"""The upper triangle of an element matrix: rows and columns."""
+FIRST, SECOND = 2 * np.array(CORNER_PAIRS)
+PAIRS = (
+    np.concatenate([FIRST, FIRST + 1, FIRST, FIRST[:3] + 1]),
+    np.concatenate([SECOND, SECOND + 1, SECOND + 1, SECOND[:3]]),
+)
+"""Which of the six coordinates of its corners the entries of an element's matrix belong to: x and
+x, y and y, x and y, and y and x of different corners. Each pair comes once."""
+TINY = 1e-300
 
 
 class Factor:
@@ -65,6 +66,8 @@ class ElementSystem:
         """Prepare for ``size`` unknowns; (6, m) says which the coordinates of elements' corners
         are, or -1 where they are fixed.
         """
+        self._size, self._free = size, np.flatnonzero(unknowns.ravel() >= 0)
+        self._number = unknowns.ravel()[self._free]
         ends = unknowns[np.array(PAIRS)]  # (2, 21, m)
         row, column = ends.min(axis=0).ravel(), ends.max(axis=0).ravel()
         self._used = np.flatnonzero(row >= 0)
@@ -76,8 +79,13 @@ class ElementSystem:
         self._diagonal = pointer[1:] - 1
         self._factor: qdldl.Solver | None = None
 
+    def sum(self, values: Array) -> Array:
+        """Sum values of the corners' coordinates (6, m) into those of the unknowns (size,)."""
+        weights = values.ravel()[self._free]
+        return np.bincount(self._number, weights, self._size).astype(float, copy=False)
+
     def solve(self, blocks: Array, load: Array, held: Array | float = 0.0) -> Array:
-        """Sum element matrices, given as upper triangles (21, m), and solve for load (size,).
+        """Sum element matrices (21, m), see ``PAIRS``, and solve for load (size,).
 
         ``held`` is added to the diagonal.
         """
@@ -117,8 +125,9 @@ class Step:
 
 def energy(elements: Elements, density: Density, x: Array) -> float:
     """Return Σ A ψ(F) at positions x (n, 2)."""
-    s1, s2 = signed_singular_values(elements.deformation_gradients(x))
-    return float(elements.areas @ density.value(s1, s2))
+    turn, mirror = map(np.abs, elements.turn_and_mirror(x))
+    value = density.value(turn + mirror, turn - mirror)
+    return float(elements.areas @ value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +138,7 @@ class Terms:
     gradient: Array
     """(6, m) by the coordinates of the corners."""
     hessian: Array
-    """(21, m) upper triangles, positive semidefinite."""
+    """(21, m) element matrices, positive semidefinite, see ``PAIRS``."""
 
     def __add__(self, other: Terms) -> Terms:
         """Return the terms of both energies' sum, over the same triangles."""
@@ -142,14 +151,19 @@ class Terms:
 
 def density_terms(elements: Elements, density: Density, x: Array) -> Terms:
     """Return Σ A ψ at positions x (n, 2), its Hessian projected."""
-    turn, mirror = turn_and_mirror(elements.deformation_gradients(x))
-    s1, s2 = np.abs(turn) + np.abs(mirror), np.abs(turn) - np.abs(mirror)
+    turn, mirror = elements.turn_and_mirror(x)
+    size, other = np.abs(turn), np.abs(mirror)
+    s1, s2 = size + other, size - other
     d = density.derivatives(s1, s2)
-    modes = _modes(elements.hats, unit(turn), unit(mirror))
-    stress = d.d1 * modes[0] + d.d2 * modes[1]
-    eigenmodes = _weighted_eigenmodes(d, s1, s2, modes) * np.sqrt(elements.areas)
-    value = float(elements.areas @ density.value(s1, s2))
-    return Terms(value, elements.areas * stress, _squared(eigenmodes))
+    turn, mirror = turn / np.maximum(size, TINY), mirror / np.maximum(other, TINY)
+    half = elements.areas / 2
+    by_turn, by_mirror = half * (d.d1 + d.d2) * turn, half * (d.d1 - d.d2) * mirror
+    stress = by_turn * elements.hats + by_mirror * np.conj(elements.hats)
+    return Terms(
+        float(elements.areas @ density.value(s1, s2)),
+        np.stack([stress.real, stress.imag], axis=1).reshape(6, -1),
+        _hessian(elements, _Modes.of(d, s1, s2), turn, mirror),
+    )
 
 
 def newton_step(vertices: FreeVertices, density: Density, x: Array) -> Step:
@@ -159,7 +173,7 @@ def newton_step(vertices: FreeVertices, density: Density, x: Array) -> Step:
 
 def step_of(vertices: FreeVertices, terms: Terms) -> Step:
     """Return the direction that minimises an energy's quadratic model over the free vertices."""
-    gradient = _scatter(vertices.elements, terms.gradient)[vertices.free].ravel()
+    gradient = vertices.sum(terms.gradient)
     solution = vertices.solve(terms.hessian, -gradient)
     direction = np.zeros((vertices.elements.vertices, 2))
     direction[vertices.free] = solution.reshape(-1, 2)
@@ -216,65 +230,58 @@ def step_to_flat(elements: Elements, x: Array, direction: Array) -> float:
     return first_flatness(to_complex(x)[corners], to_complex(direction)[corners])
 
 
-def _modes(hats: Complex, turn: Complex, mirror: Complex) -> Array:
-    """Return (4, 6, m): how the corners' coordinates excite scaling 1, scaling 2, flip and twist.
+@dataclass(frozen=True, eq=False)
+class _Modes:
+    """How stiff ψ is, each (m,), towards changes of F that add to its turn or mirror part.
 
-    With F = R(α) diag(σ₁, σ₂) R(β)ᵀ the modes are R(α) E R(β)ᵀ for E = diag(1, 0), diag(0, 1) and
-    the symmetric and the antisymmetric off-diagonal matrix over √2. They need no angles: turn =
-    exp(i(α − β)) and mirror = exp(i(α + β)) are what F consists of.
+    With F = turn + mirror as complex numbers, σ₁ and σ₂ being |turn| ± |mirror|, the scaling modes
+    add along either part, the twist across the turn and the flip across the mirror.
     """
-    even, odd = turn * hats, mirror * np.conj(hats)
-    modes = np.stack(
-        [(even + odd) / 2, (even - odd) / 2, 1j * odd / np.sqrt(2), 1j * even / np.sqrt(2)]
-    )
-    return np.stack([modes.real, modes.imag], axis=2).reshape(4, 6, -1)
+
+    turn: Array
+    mirror: Array
+    mixed: Array
+    """Of the turn towards the mirror."""
+    twist: Array
+    flip: Array
+
+    @classmethod
+    def of(cls, d: Derivatives, s1: Array, s2: Array) -> Self:
+        """Clamp the eigenvalues of ψ's Hessian at 0.
+
+        Those of the scaling modes are the two of [[ψ₁₁, ψ₁₂], [ψ₁₂, ψ₂₂]].
+        """
+        mean, half = (d.d11 + d.d22) / 2, (d.d11 - d.d22) / 2
+        radius = np.sqrt(half * half + d.d12 * d.d12)
+        high, low = np.maximum(mean + radius, 0), np.maximum(mean - radius, 0)
+        share = (high - low) / np.maximum(2 * radius, TINY)
+        mean, half, across = (high + low) / 2, share * half, share * d.d12
+        flip = _quotient(d.d1 - d.d2, s1 - s2, d.d11 - d.d12, s1)
+        twist = _quotient(d.d1 + d.d2, s1 + s2, d.d12 + d.d22, s1)
+        return cls(mean + across, mean - across, half, np.maximum(twist, 0), np.maximum(flip, 0))
 
 
-def _weighted_eigenmodes(d: Derivatives, s1: Array, s2: Array, modes: Array) -> Array:
-    """Return (4, 6, m) the eigenmodes of ψ's Hessian times the roots of its eigenvalues.
+def _hessian(elements: Elements, k: _Modes, turn: Complex, mirror: Complex) -> Array:
+    """Return the element matrices (21, m) of Σ A k v vᵀ over all modes, in the order of PAIRS.
 
-    Negative eigenvalues are clamped at 0, so the sum of their outer products is the projected
-    Hessian. The scaling modes mix by the angle that diagonalises their 2 x 2 block.
+    A corner with the hat gradient h excites what adds along the turn by v = turn · h, along the
+    mirror by v = mirror · conj(h), and i times as much across. As a 2 x 2 block v wᵀ takes z to
+    (v conj(w) z + v w conj(z)) / 2.
     """
-    mean, half = (d.d11 + d.d22) / 2, (d.d11 - d.d22) / 2
-    radius = np.hypot(half, d.d12)
-    share = np.divide(half, radius, out=np.ones_like(radius), where=radius > 0)
-    cos = np.sqrt((1 + share) / 2)
-    sin = np.copysign(np.sqrt(np.maximum(1 - share, 0) / 2), d.d12)
-    eigenvalues = np.stack(
-        [
-            mean + radius,
-            mean - radius,
-            _quotient(d.d1 - d.d2, s1 - s2, d.d11 - d.d12, s1),
-            _quotient(d.d1 + d.d2, s1 + s2, d.d12 + d.d22, s1),
-        ]
-    )
-    mixed = np.stack(
-        [cos * modes[0] + sin * modes[1], cos * modes[1] - sin * modes[0], modes[2], modes[3]]
-    )
-    return np.sqrt(np.maximum(eigenvalues, 0))[:, None] * mixed
-
-
-def _squared(modes: Array) -> Array:
-    """Return the upper triangles (21, m) of Σ v vᵀ over modes v (k, 6, m), in the order of PAIRS.
-
-    Row by row: no copies are made, which takes a twentieth of the time of one contraction.
-    """
-    rows = [np.einsum("km,kpm->pm", modes[:, i], modes[:, i:]) for i in range(6)]
-    return np.concatenate(rows)
+    conjugate, plain = elements.products
+    weight = elements.areas / 4
+    mixed = 2 * weight * k.mixed * turn
+    rotating = weight * (k.turn + k.twist) * conjugate
+    rotating += weight * (k.mirror + k.flip) * np.conj(conjugate)
+    rotating += (mixed * np.conj(mirror) * plain).real
+    flipping = weight * (k.turn - k.twist) * turn**2 * plain
+    flipping += weight * (k.mirror - k.flip) * mirror**2 * np.conj(plain)
+    flipping += mixed * mirror * conjugate.real
+    both, apart = flipping + rotating, flipping - rotating
+    return np.concatenate([both.real, -apart.real, apart.imag, both.imag[:3]])
 
 
 def _quotient(above: Array, below: Array, limit: Array, scale: Array) -> Array:
     """Return above / below, or its limit where below vanishes."""
     vanishing = np.abs(below) < 1e-7 * (1 + scale)
     return np.where(vanishing, limit, above / np.where(vanishing, 1, below))
-
-
-def _scatter(elements: Elements, blocks: Array) -> Array:
-    """Sum corner values (6, m) into (n, 2)."""
-    corners = elements.triangles.T.ravel()
-    sums = [
-        np.bincount(corners, weights=blocks[i::2].ravel(), minlength=elements.vertices)
-        for i in (0, 1)
-    ]
-    return np.column_stack(sums)

@@ -12,9 +12,9 @@ from functools import cached_property
 
 import numpy as np
 
-from core.fem.elements import Elements, determinants
-from core.fem.energies import Density, StVenantKirchhoff, SymmetricDirichlet
-from core.fem.newton import Factor, FreeVertices, line_search, newton_step
+from core.fem.elements import Elements
+from core.fem.energies import Density, Dirichlet, StVenantKirchhoff, SymmetricDirichlet
+from core.fem.newton import FreeVertices, line_search, newton_step
 from core.geometry.triangulation import Mesh
 from core.model import Recipe
 from core.model.outline import Array
@@ -43,8 +43,10 @@ def place(mesh: Mesh, boundary: Array, recipe: Recipe, watch: Watch = unwatched)
     """
     watch("harmonic map")
     problem = _Problem(mesh, watch)
-    x = harmonic(problem.elements, boundary)
-    if len(problem.free) and _lowest(problem.elements, x) <= VALID:
+    if not len(problem.free):
+        return Placed(boundary, ())
+    x = harmonic(problem.vertices, boundary)
+    if problem.lowest(x) <= VALID:
         x = untangle(problem.vertices, x, problem.observe("untangle"))
     return problem.settled(x, recipe)
 
@@ -67,6 +69,10 @@ class _Problem:
     def vertices(self) -> FreeVertices:
         return FreeVertices(self.elements, self.free)
 
+    def lowest(self, x: Array) -> float:
+        """Return the smallest J of positions x (n, 2)."""
+        return float(self.elements.determinants(x).min())
+
     def observe(self, stage: str) -> Callable[[float, Array], None]:
         def note(energy: float, x: Array) -> None:
             self._history.append(Iteration(stage, energy, folded(self.elements, x)))
@@ -75,22 +81,18 @@ class _Problem:
         return note
 
     def settled(self, x: Array, recipe: Recipe) -> Placed:
-        sound = _lowest(self.elements, x) > 0
+        sound = self.lowest(x) > 0
         if len(self.free) and (sound or recipe.material == "st-venant-kirchhoff"):
             density = material(recipe, barrier=sound)
             x = relax(self.vertices, density, x, self.observe(recipe.material))
         return Placed(x, tuple(self._history))
 
 
-def harmonic(elements: Elements, boundary: Array) -> Array:
+def harmonic(vertices: FreeVertices, boundary: Array) -> Array:
     """Return the positions (n, 2) that minimise Σ A ‖F‖², the first b being given as boundary."""
-    b = len(boundary)
-    matrix = elements.laplacian.tocsc()
-    inner = matrix[b:, b:]
-    x = np.vstack([boundary, np.zeros((elements.vertices - b, 2))])
-    if inner.shape[0]:
-        x[b:] = Factor(inner).solve(-(matrix[b:, :b] @ boundary))
-    return x
+    x = np.zeros((vertices.elements.vertices, 2))
+    x[: len(boundary)] = boundary
+    return x + newton_step(vertices, Dirichlet(), x).direction
 
 
 def material(recipe: Recipe, *, barrier: bool) -> Density:
@@ -115,8 +117,4 @@ def relax(
 
 def folded(elements: Elements, x: Array) -> int:
     """Count the triangles with J ≤ 0."""
-    return int(np.count_nonzero(determinants(elements.deformation_gradients(x)) <= 0))
-
-
-def _lowest(elements: Elements, x: Array) -> float:
-    return float(determinants(elements.deformation_gradients(x)).min())
+    return int(np.count_nonzero(elements.determinants(x) <= 0))

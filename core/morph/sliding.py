@@ -93,9 +93,7 @@ class _End:
         moved = _by_element(self._moved(), self._triangles)
         i, j = PAIRS
         blocks = terms.hessian * (self._count * moved[i] * moved[j])
-        free = self._unknowns >= 0
-        slopes = (terms.gradient * moved)[free]
-        gradient: Array = np.bincount(self._unknowns[free], slopes, self._size).astype(float)
+        gradient = self._system.sum(terms.gradient * moved)
         step = self._system.solve(blocks, -gradient, self._held(terms.energy))
         along = np.zeros(len(self._at))
         along[self._slides] = step[2 * len(self._inner) :]

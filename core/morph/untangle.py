@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.fem.elements import Elements, determinants
 from core.fem.energies import FoldoverFree
 from core.fem.energies.foldover_free import regularised
 from core.fem.newton import FreeVertices, line_search, newton_step
@@ -30,7 +29,7 @@ def untangle(vertices: FreeVertices, x: Array, observe: Observe) -> Array:
     Shapes are expected at unit area.
     """
     elements = vertices.elements
-    J = _determinants(elements, x)
+    J = elements.determinants(x)
     epsilon = 0.2 * abs(float(J.min()))
     for _ in range(MAX_STEPS):
         if J.min() > VALID:
@@ -39,7 +38,7 @@ def untangle(vertices: FreeVertices, x: Array, observe: Observe) -> Array:
         step = newton_step(vertices, density, x)
         x, after = line_search(elements, density, x, step)
         observe(after, x)
-        J = _determinants(elements, x)
+        J = elements.determinants(x)
         epsilon = _next_epsilon(epsilon, J, step.energy, after)
     return x
 
@@ -50,7 +49,3 @@ def _next_epsilon(epsilon: float, J: Array, before: float, after: float) -> floa
     sigma = max(1 - after / before, MOST_FALL - folded, LEAST_FALL)
     mu = (1 - sigma) * float(regularised(np.array(lowest), epsilon))
     return 2 * np.sqrt(mu * (mu - lowest)) if lowest < mu else 1e-10
-
-
-def _determinants(elements: Elements, x: Array) -> Array:
-    return determinants(elements.deformation_gradients(x))

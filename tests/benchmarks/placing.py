@@ -13,7 +13,7 @@ from time import perf_counter
 
 import numpy as np
 
-from core.fem.elements import Elements, determinants
+from core.fem.elements import Elements
 from core.fem.energies import SymmetricDirichlet
 from core.fem.newton import FreeVertices
 from core.geometry.polyline import signed_area
@@ -61,11 +61,11 @@ class Task:
 
     def start(self) -> np.ndarray:
         """Return the harmonic map (n, 2), which may fold."""
-        return harmonic(self.elements, self.boundary)
+        return harmonic(FreeVertices(self.elements, self.free), self.boundary)
 
     def folds(self, x: np.ndarray) -> int:
         """Count the triangles of positions x (n, 2) with J ≤ 0."""
-        return int(np.sum(determinants(self.elements.deformation_gradients(x)) <= 0))
+        return int(np.sum(self.elements.determinants(x) <= 0))
 
 
 @dataclass(frozen=True, eq=False)

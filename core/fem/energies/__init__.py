@@ -1,6 +1,7 @@
 """Isotropic energy densities of a triangle, one a file, as functions of its singular values."""
 
 from core.fem.energies.density import Density, Derivatives
+from core.fem.energies.dirichlet import Dirichlet
 from core.fem.energies.fairness import Fairness
 from core.fem.energies.foldover_free import FoldoverFree
 from core.fem.energies.inverse_dirichlet import InverseDirichlet
@@ -10,6 +11,7 @@ from core.fem.energies.symmetric_dirichlet import SymmetricDirichlet
 __all__ = [
     "Density",
     "Derivatives",
+    "Dirichlet",
     "Fairness",
     "FoldoverFree",
     "InverseDirichlet",

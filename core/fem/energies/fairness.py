@@ -34,15 +34,16 @@ class Fairness:
         """Return the derivatives of ψ."""
         excess = self._excess(s1, s2)
         root = np.hypot(1, excess)
-        slope, bend = self.weight * excess / root, self.weight * (excess > 0) / root**3
-        d1, d2 = (1 / s2 - s2 / s1**2) / 2, (1 / s1 - s1 / s2**2) / 2  # of 1/q
-        mixed = -(s1**-2.0 + s2**-2.0) / 2
+        slope = self.weight * excess / root
+        bend = self.weight * (excess > 0) / (root * root * root)
+        a, b, J = s1**2, s2**2, s1 * s2
+        d1, d2 = (1 / s2 - s2 / a) / 2, (1 / s1 - s1 / b) / 2  # of 1/q
         return Derivatives(
             d1=slope * d1,
             d2=slope * d2,
-            d11=bend * d1 * d1 + slope * s2 / s1**3,
-            d12=bend * d1 * d2 + slope * mixed,
-            d22=bend * d2 * d2 + slope * s1 / s2**3,
+            d11=bend * d1 * d1 + slope * J / a**2,
+            d12=bend * d1 * d2 - slope * (1 / a + 1 / b) / 2,
+            d22=bend * d2 * d2 + slope * J / b**2,
         )
 
     def _excess(self, s1: Array, s2: Array) -> Array:

@@ -38,7 +38,7 @@ class FoldoverFree:
         chi = regularised(J, self.epsilon)
         N = s1**2 + s2**2 + J**2 + 1
         slope = chi / root  # χ′
-        bend = self.epsilon**2 / (2 * root**3)  # χ″
+        bend = self.epsilon**2 / (2 * root * root * root)  # χ″
         by_J = -N * slope / chi**2
         by_JJ = N * (2 * slope**2 / chi - bend) / chi**2
         n1, n2 = 2 * s1 + 2 * J * s2, 2 * s2 + 2 * J * s1

@@ -24,15 +24,17 @@ class InverseDirichlet:
     def value(self, s1: Array, s2: Array) -> Array:
         """Return ψ (m,); infinite where J ≤ 0."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            psi = (s1**3 * s2 + s1 * s2**3 + s2 / s1 + s1 / s2) / 4
+            J = s1 * s2
+            psi = (s1**2 + s2**2) * (J + 1 / J) / 4
         return np.where(s2 > 0, psi, np.inf)
 
     def derivatives(self, s1: Array, s2: Array) -> Derivatives:
         """Return the derivatives of ψ."""
+        a, b, J = s1**2, s2**2, s1 * s2
         return Derivatives(
-            d1=(3 * s1**2 * s2 + s2**3 - s2 / s1**2 + 1 / s2) / 4,
-            d2=(3 * s2**2 * s1 + s1**3 - s1 / s2**2 + 1 / s1) / 4,
-            d11=(3 * s1 * s2 + s2 / s1**3) / 2,
-            d12=(3 * s1**2 + 3 * s2**2 - s1**-2.0 - s2**-2.0) / 4,
-            d22=(3 * s1 * s2 + s1 / s2**3) / 2,
+            d1=((3 * a + b) * s2 - s2 / a + 1 / s2) / 4,
+            d2=((3 * b + a) * s1 - s1 / b + 1 / s1) / 4,
+            d11=(3 * J + J / a**2) / 2,
+            d12=(3 * (a + b) - 1 / a - 1 / b) / 4,
+            d22=(3 * J + J / b**2) / 2,
         )

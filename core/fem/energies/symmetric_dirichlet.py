@@ -18,16 +18,18 @@ class SymmetricDirichlet:
 
     def value(self, s1: Array, s2: Array) -> Array:
         """Return ψ (m,); infinite where J ≤ 0."""
-        with np.errstate(divide="ignore"):
-            psi = (s1**2 + s2**2 + s1**-2.0 + s2**-2.0) / 4
+        with np.errstate(divide="ignore", invalid="ignore"):
+            J = s1 * s2
+            psi = (s1**2 + s2**2) * (1 + 1 / J**2) / 4
         return np.where(s2 > 0, psi, np.inf)
 
     def derivatives(self, s1: Array, s2: Array) -> Derivatives:
         """Return the derivatives of ψ."""
+        q1, q2 = 1 / s1**2, 1 / s2**2
         return Derivatives(
-            d1=(s1 - s1**-3.0) / 2,
-            d2=(s2 - s2**-3.0) / 2,
-            d11=(1 + 3 * s1**-4.0) / 2,
+            d1=(s1 - q1 / s1) / 2,
+            d2=(s2 - q2 / s2) / 2,
+            d11=(1 + 3 * q1 * q1) / 2,
             d12=np.zeros_like(s1),
-            d22=(1 + 3 * s2**-4.0) / 2,
+            d22=(1 + 3 * q2 * q2) / 2,
         )

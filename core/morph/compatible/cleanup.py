@@ -135,4 +135,4 @@ def _equilateral(triangles: Indices, sizes: Array) -> Elements:
     one = Elements.of(np.array([[0, 0], [1, 0], [0.5, np.sqrt(0.75)]]), np.array([[0, 1, 2]]))
     side = sizes[triangles].mean(axis=1)
     areas = np.full(len(triangles), one.areas[0])
-    return Elements(triangles, len(sizes), areas, one.gradients / side[:, None, None])
+    return Elements(triangles, len(sizes), areas, one.hats / side)

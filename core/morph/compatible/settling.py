@@ -91,4 +91,4 @@ def _equilateral(x: Array, other: Array, triangles: Indices) -> Elements:
     """Return elements with equilateral rest shapes, as heavy as the triangles are at both ends."""
     one = Elements.of(np.array([[0, 0], [1, 0], [0.5, np.sqrt(0.75)]]), np.array([[0, 1, 2]]))
     areas = (Elements.of(x, triangles).areas + Elements.of(other, triangles).areas) / 2
-    return Elements(triangles, len(x), areas, np.repeat(one.gradients, len(triangles), axis=0))
+    return Elements(triangles, len(x), areas, np.repeat(one.hats, len(triangles), axis=1))
