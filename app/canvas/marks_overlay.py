@@ -20,6 +20,8 @@ RADIUS = 9.5
 STALK = 21.0
 """From the marked place to the middle of its letter."""
 DOT = 3.5
+BEHIND = 0.5
+"""Opacity while they stand back."""
 LEASH = 1.8
 """How many times as far a letter may go to make room for others."""
 ROUNDS = 12
@@ -38,6 +40,10 @@ class MarksOverlay(Overlay):
         """Show marks, by their letters."""
         self._labels, self._pins, self._selected = tuple(labels), pins, selected
         self.update()
+
+    def stand_back(self, back: bool) -> None:
+        """Let what the tool in hand shows be seen through the marks, or show them in full."""
+        self.setOpacity(BEHIND if back else 1.0)
 
     def draw(self, painter: QPainter) -> None:
         """Paint them, the selected one last."""

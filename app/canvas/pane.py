@@ -61,9 +61,9 @@ class Pane(QWidget):
         overlays = (
             self._invitation,
             self.trouble_rings,
-            self.tool_overlay,
             self._suggestions,
             self._marks,
+            self.tool_overlay,
             self.error_ring,
         )
         for z, item in enumerate(overlays):
@@ -115,6 +115,7 @@ class Pane(QWidget):
         for item in (self.tool_overlay, self._suggestions, self._marks):
             # what plays is looked at, not worked on
             item.setVisible(at_rest or tool.busy)
+        self._marks.stand_back(not tool.places_marks)
         if repaint:
             self.tool_overlay.update()
         self._invitation.make_room(tool.busy)

@@ -68,6 +68,7 @@ class MarksTool(Tool):
 
     name = "marks"
     aims = True
+    places_marks = True
 
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(workspace, parent)

@@ -55,6 +55,9 @@ class Tool(QObject):
     aims = False
     """Whether it works on what keys show in so many places that playing must not hide them."""
 
+    places_marks = False
+    """Whether it works on marks; for other tools they stand back."""
+
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(parent)
         self.workspace = workspace

@@ -256,3 +256,19 @@ def test_insert_places_a_mark_at_the_next_free_corner(hand: Hand, qtbot: QtBot):
     qtbot.waitUntil(lambda: len(hand.document.layers[0].labels) == 4)
     assert hand.document.layers[0].labels == ("a", "b", "c", "d")
     assert [tuple(place_of(hand, 0, mark)) for mark in (2, 3)] == [SQUARE[1], SQUARE[3]]
+
+
+def test_marks_stand_back_for_every_tool_but_their_own(hand: Hand):
+    view = hand.pane(SOURCE).view
+
+    def saturation() -> int:
+        """Of the ground of a mark's letter."""
+        x, y = letter_centres(view, pins_on_key(hand.pane(SOURCE).keyframe))[0]
+        return view.viewport().grab().toImage().pixelColor(round(x) - 7, round(y)).saturation()
+
+    full = saturation()
+    for tool in ("select", "nodes", "pen", "freehand"):
+        hand.canvas.set_tool(tool)
+        assert 0.2 * full < saturation() < 0.8 * full
+    hand.canvas.set_tool("marks")
+    assert saturation() == full
