@@ -47,7 +47,7 @@ def fit_stroke(stroke: ArrayLike, tolerance: float) -> Ring:
     points = resample(points, int(np.clip(perimeter / (0.5 * tolerance), 24, MAX_POINTS)))
     step = perimeter / len(points)
     corners = _corners(points, max(1, round(CORNER_REACH * tolerance / step)))
-    ring = _ring(_fit_pieces(points, corners, tolerance))
+    ring = joined(_fit_pieces(points, corners, tolerance))
     while len(ring) < FEWEST_NODES:
         ring = ring.with_node(0.5)
     return ring
@@ -126,7 +126,7 @@ def _fit_pieces(points: Array, corners: list[int], tolerance: float) -> list[Arr
         leaving, arriving = _unit(piece[ahead] - piece[0]), _unit(piece[-1 - ahead] - piece[-1])
         if not corners:
             leaving, arriving = _along(points, start, look), -_along(points, end, look)
-        curves += _fit(piece, leaving, arriving, tolerance)
+        curves += fit_run(piece, leaving, arriving, tolerance)
     return curves
 
 
@@ -136,8 +136,11 @@ def _along(points: Array, index: int, look: int) -> Array:
     return _unit(points[(index + look) % n] - points[(index - look) % n])
 
 
-def _fit(points: Array, leaving: Array, arriving: Array, tolerance: float) -> list[Array]:
-    """Fit cubics to an open run of points; both tangents point into the run."""
+def fit_run(points: Array, leaving: Array, arriving: Array, tolerance: float) -> list[Array]:
+    """Return cubics (4, 2) along an open run of points (n, 2), within ``tolerance`` of them.
+
+    The unit tangents at both ends point into the run.
+    """
     if len(points) < 4 or _off_line(points) < tolerance / 2:
         return [points[[0, 0, -1, -1]]]
     u = arc_lengths(points)[:-1]
@@ -152,8 +155,8 @@ def _fit(points: Array, leaving: Array, arriving: Array, tolerance: float) -> li
     width = min(cut, len(points) - 1 - cut, max(2, len(points) // 16))
     tangent = _unit(points[cut - width] - points[cut + width])
     return [
-        *_fit(points[: cut + 1], leaving, tangent, tolerance),
-        *_fit(points[cut:], -tangent, arriving, tolerance),
+        *fit_run(points[: cut + 1], leaving, tangent, tolerance),
+        *fit_run(points[cut:], -tangent, arriving, tolerance),
     ]
 
 
@@ -213,7 +216,7 @@ def _unit(vector: Array) -> Array:
     return vector / length if length > 0 else np.array([1.0, 0.0])
 
 
-def _ring(curves: list[Array]) -> Ring:
-    """Join cubics end to end; a node where two meet."""
+def joined(curves: list[Array]) -> Ring:
+    """Join cubics (4, 2) end to end to a ring; a node where two meet."""
     b = np.array(curves)
     return Ring(b[:, 0], np.roll(b[:, 2] - b[:, 3], 1, axis=0), b[:, 1] - b[:, 0])

@@ -181,7 +181,7 @@ def keyframe_at(
 ) -> tuple[Keyframe, Turning]:
     """Return what the layer shows at a frame as a keyframe of its own, to be inserted there.
 
-    The in-between becomes an outline of straight segments, with every mark at its place on it.
+    The in-between becomes an outline that can be edited, with every mark at its place on it.
     Outside the layer's keys, and in a span without a solution, the nearest key is repeated where it
     is carried. Beside it comes how the shape turns on the way there from now on.
     """
@@ -191,12 +191,16 @@ def keyframe_at(
         key = _nearest_key(layer, index, s)
         outline = key.outline.transformed(moved.matrix, moved.offset)
         return replace(key, frame=frame, outline=outline), turning
-    source, positions = layer.keyframes[index], moved(morph.at(s))
+    from core.morph.redrawn import redrawn
+
+    (source, target), positions = layer.keyframes[index : index + 2], moved(morph.at(s))
     rest = Outline.polygon(*(morph.rest[ring] for ring in morph.rings))
+    travelled = Outline.polygon(*(positions[ring] for ring in morph.rings))
+    outline = redrawn(morph, positions, source.outline, target.outline)
     marks = tuple(
-        nearest_place(rest, source.outline.position(mark))[0] for mark in source.marks
+        nearest_place(outline, travelled.position(place))[0]
+        for place, _ in (nearest_place(rest, source.outline.position(m)) for m in source.marks)
     )  # same vertices, so a place at rest is the place in the in-between
-    outline = Outline.polygon(*(positions[ring] for ring in morph.rings))
     angle = turn_of(document, layer, index, morph_of)
     before, after = turning.split(morph.angle if angle is None else angle, s)
     return Keyframe(frame, outline, marks, turning=after), before
