@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from scipy.spatial import cKDTree
+from numpy.typing import NDArray
 
 from core.geometry.crossing import crosses_itself
 from core.geometry.flatness import times_of_flatness
@@ -16,6 +16,7 @@ from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.motion.barrier import LEFT_ALONE, Derivatives
+from core.morph.motion.runs import Pairs, Runs, Test
 
 REACH = 0.01
 """Largest distance at which contact is felt, at unit area."""
@@ -47,12 +48,15 @@ class Contact:
         places = np.split(np.arange(sum(sizes)), np.cumsum(sizes)[:-1])
         self._next = np.concatenate([np.roll(place, -1) for place in places])
         self._stops = self._starts[self._next]
+        self._runs = Runs(self._starts, self._stops)
+        self._left_discs = tuple(map(self._runs.discs, self._left))
         self._weights = STIFFNESS / 2 * (self._sharpness(rest) + self._sharpness(target))
 
     def leaving(self, *frames: Complex) -> Self:
         """Return the contact that is not felt in some frames (n,) either."""
         other = copy(self)
         other._left = *self._left, *frames
+        other._left_discs = *self._left_discs, *map(self._runs.discs, frames)
         return other
 
     def crosses(self, z: Complex) -> bool:
@@ -66,7 +70,7 @@ class Contact:
 
     def near(self, z: Complex, within: float, among: Indices | None = None) -> Indices:
         """Return the pairs with a gap below ``within`` at positions z (n,), in order."""
-        pairs = self._neighbours(z, within * REACH) if among is None else among
+        pairs = self._close(z, within) if among is None else among
         corners = self.corners(pairs)
         distance = _distances(z[corners.T])
         close = distance < within * REACH
@@ -77,15 +81,34 @@ class Contact:
 
         Seen from its edge, a vertex is taken to move about straight.
         """
-        way = aligned(there, here) - here
-        radius = REACH + BOWED * np.abs(way[self._starts]).max()
-        pairs = self._neighbours(here + way / 2, radius)
+        pairs = self._closing(here, there)
         corners = self.corners(pairs)
         closing = np.abs(_seen_from_edges(there[corners.T]) - _seen_from_edges(here[corners.T]))
         apart = _distances(here[corners.T]) + _distances(there[corners.T])
         least: Array = apart - BOWED * closing.max(axis=0)
         close = least < 2 * REACH
         return pairs[close][least[close] < 2 * self._reach(corners[close])]
+
+    def _close(self, z: Complex, within: float) -> Indices:
+        """Return at least the pairs with a gap below ``within``."""
+
+        def test(level: int, runs: Pairs) -> NDArray[np.bool_]:
+            return discs[level].least(runs) < within * self._most_reach(level, runs)
+
+        discs = self._runs.discs(z)
+        return self._find(z, within * REACH, test)
+
+    def _closing(self, here: Complex, there: Complex) -> Indices:
+        """Return at least the pairs that may be felt on the way."""
+
+        def test(level: int, runs: Pairs) -> NDArray[np.bool_]:
+            least = ways[level].least(runs) - BOWED * ways[level].closing(runs)
+            return least < 2 * self._most_reach(level, runs)
+
+        way = aligned(there, here) - here
+        radius = REACH + BOWED * np.abs(way[self._starts]).max()
+        ways = self._runs.ways(here, there)
+        return self._find(here + way / 2, radius, test)
 
     def gaps(self, pairs: Indices, vertices: Indices) -> Distances:
         """Return pairs as gaps between the vertices held, which come in order.
@@ -113,19 +136,19 @@ class Contact:
         sharpness[self._stops] = length * np.clip(np.angle(after / edges) / SHARP, FLAT, 1)
         return sharpness
 
-    def _neighbours(self, z: Complex, distance: float) -> Indices:
-        """Return at least the pairs within a distance, in order, none of them on one edge."""
-        points = z[self._starts]
-        edges = z[self._stops] - points
-        radius = distance + np.abs(edges).max() / 2
-        here, there = (_tree(p) for p in (points, points + edges / 2))
-        found = here.sparse_distance_matrix(there, radius, output_type="ndarray")
-        vertex, edge = found["i"], found["j"]
+    def _find(self, z: Complex, distance: float, test: Test) -> Indices:
+        """Return neighbours that pass a test of runs, in order, none of them on one edge."""
+        vertex, edge = self._runs.find(z, distance, test)
         apart = (vertex != edge) & (vertex != self._next[edge])
-        return np.sort(vertex[apart] * len(points) + edge[apart])
+        return np.sort(vertex[apart] * len(self._starts) + edge[apart])
 
     def _reach(self, corners: Indices) -> Array:
         least = np.min([_distances(frame[corners.T]) for frame in self._left], axis=0)
+        return np.minimum(REACH, LEFT_ALONE * least)
+
+    def _most_reach(self, level: int, runs: Pairs) -> Array:
+        """Return what the reach of no pair in runs exceeds."""
+        least = np.min([discs[level].most(runs) for discs in self._left_discs], axis=0)
         return np.minimum(REACH, LEFT_ALONE * least)
 
 
@@ -229,10 +252,6 @@ def _distances(corners: Complex) -> Array:
 
 def _outer(a: Array, b: Array) -> Array:
     return a[:, :, None] * b[:, None]
-
-
-def _tree(z: Complex) -> cKDTree:
-    return cKDTree(to_points(z))
 
 
 def aligned(z: Complex, model: Complex) -> Complex:
