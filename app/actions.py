@@ -20,6 +20,7 @@ from core.model.easing import PRESETS
 
 if TYPE_CHECKING:
     from app.canvas.canvas import Canvas
+    from app.clipboard import Clipboard
     from app.commands import Commands
     from app.files.files import Files
     from app.jobs.solver import Solver
@@ -40,6 +41,7 @@ class Desk:
     canvas: Canvas
     commands: Commands
     files: Files
+    clipboard: Clipboard
     window: MainWindow
 
 
@@ -248,6 +250,9 @@ ENTRIES: tuple[Entry, ...] = (
           title=_undo_title),
     Entry("redo", "&Redo", lambda d: d.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "redo",
           lambda d: d.session.undo_stack.canRedo(), title=_redo_title),
+    Entry("cut", "Cut &keyframe", lambda d: d.clipboard.cut(), ("Ctrl+X",), when=_span),
+    Entry("copy", "&Copy keyframe", lambda d: d.clipboard.copy(), ("Ctrl+C",), when=_layer),
+    Entry("paste", "&Paste here", lambda d: d.clipboard.paste(), ("Ctrl+V",)),
     Entry("delete", "&Delete", lambda d: d.commands.delete(), ("Del",), "delete", _deletable),
     Entry("select-all", "Select &all nodes", lambda d: d.commands.select_all_nodes(),
           ("Ctrl+A",), when=_layer),

@@ -52,7 +52,7 @@ class Commands(QObject):
         self._session.apply(
             self.tr("Delete nodes"),
             delete_nodes,
-            self._unlocked().id,
+            self.unlocked().id,
             self._selection.key,
             self._selection.nodes,
         )
@@ -93,7 +93,7 @@ class Commands(QObject):
 
     def insert_keyframe(self) -> None:
         """Make the in-between at the playhead a keyframe; EditError while it is not solved."""
-        layer, frame = self._unlocked(), round(self._playhead.frame)
+        layer, frame = self.unlocked(), round(self._playhead.frame)
         key, turning = keyframe_at(self._session.document, layer, frame, self._solution)
         text = self.tr("Insert keyframe")
         if self._session.apply(text, insert_keyframe, layer.id, key, turning):
@@ -101,14 +101,14 @@ class Commands(QObject):
 
     def remove_keyframe(self) -> None:
         """Delete the keyframe under the playhead, or else the selected one."""
-        layer = self._unlocked()
+        layer = self.unlocked()
         here = layer.key_at(self._playhead.frame)
         key = self._selection.key if here is None else here
         self._session.apply(self.tr("Delete keyframe"), remove_keyframe, layer.id, key)
 
     def set_easing(self, preset: str) -> None:
         """Set the timing of the span under the playhead."""
-        layer = self._unlocked()
+        layer = self.unlocked()
         key, _ = layer.span_at(self._playhead.frame)
         self._session.apply(self.tr("Change easing"), set_easing, layer.id, key, PRESETS[preset])
 
@@ -116,7 +116,7 @@ class Commands(QObject):
 
     def show_suggestions(self) -> None:
         """Show the marks that the span under the playhead is better off with."""
-        self._unlocked()
+        self.unlocked()
         self._view.update(marks=True)
         if self._view.suggestions == "never":
             self._view.update(suggestions="with the tool")
@@ -125,7 +125,7 @@ class Commands(QObject):
 
     def accept_suggestions(self) -> None:
         """Make marks of all suggestions."""
-        self._unlocked()
+        self.unlocked()
         self._suggestions.accept_all()
 
     def hide_suggestions(self) -> None:
@@ -135,14 +135,14 @@ class Commands(QObject):
 
     def remove_mark(self) -> None:
         """Remove the selected mark."""
-        layer, mark = self._unlocked(), self._selection.mark
+        layer, mark = self.unlocked(), self._selection.mark
         if mark is not None:
             text = self.tr("Delete mark {letter}").format(letter=layer.labels[mark])
             self._session.apply(text, remove_marks, layer.id, [mark])
 
     def remove_all_marks(self) -> None:
         """Remove every mark of the current layer."""
-        layer = self._unlocked()
+        layer = self.unlocked()
         marks = range(len(layer.labels))
         self._session.apply(self.tr("Delete all marks"), remove_marks, layer.id, marks)
 
@@ -154,7 +154,8 @@ class Commands(QObject):
             raise EditError("There is no layer yet.", hint="Draw an outline, or import one.")
         return layer
 
-    def _unlocked(self) -> Layer:
+    def unlocked(self) -> Layer:
+        """Return the current layer; EditError when there is none that may be changed."""
         layer = self._layer()
         if layer.locked:
             raise EditError(

@@ -13,6 +13,7 @@ import resources
 from app.actions import Desk
 from app.beginning import Beginning
 from app.canvas.canvas import Canvas
+from app.clipboard import Clipboard
 from app.commands import Commands
 from app.document.autosave import Autosave
 from app.document.playhead import Playhead
@@ -74,6 +75,7 @@ class MainWindow(QMainWindow):
         self.messages = MessageBar(self.canvas)
         self.files = Files(self.workspace, self.settings, self)
         self.commands = Commands(self.workspace, self)
+        self.clipboard = Clipboard(self.workspace, self.commands, self.files, self)
         self.reporter = Reporter(self.workspace, self.canvas, self.files, self.messages)
 
     def _arrange(self) -> None:
@@ -96,7 +98,9 @@ class MainWindow(QMainWindow):
     def _make_actions(self) -> None:
         w = self.workspace
         parts = (w.session, w.selection, w.playhead, w.solver, w.view, w.suggestions)
-        self.actions_ = Actions(Desk(*parts, self.canvas, self.commands, self.files, self))
+        self.actions_ = Actions(
+            Desk(*parts, self.canvas, self.commands, self.files, self.clipboard, self)
+        )
         self.actions_.fill_menu_bar(self.menuBar())
         recent = RecentMenu(self.actions_.menus[RECENT], self.settings)
         recent.chosen.connect(self.files.open_path)
@@ -130,6 +134,7 @@ class MainWindow(QMainWindow):
         self.suggested.accept.clicked.connect(self.commands.accept_suggestions)
         self.suggested.hide_all.clicked.connect(self.commands.hide_suggestions)
         self.commands.noted.connect(self.reporter.note)
+        self.clipboard.noted.connect(self.reporter.note)
         self.autosave.failed.connect(self.reporter.show_refusal)
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop_theme)
 

@@ -26,7 +26,8 @@ TOOLS = ("tool-select", "tool-nodes", "tool-pen", "tool-freehand", "tool-marks")
 MENUS: tuple[Menu, ...] = (
     ("&File", ("new", "open", (RECENT, ()), "-", "save", "save-as", "-", "import", "export", "-",
                "quit")),
-    ("&Edit", ("undo", "redo", "-", "delete", "select-all", "-", ("&Tool", TOOLS))),
+    ("&Edit", ("undo", "redo", "-", "cut", "copy", "paste", "delete", "-", "select-all", "-",
+               ("&Tool", TOOLS))),
     ("&View", ("fit", "zoom-drawing", "zoom-100", "flip", "-", "side-by-side", "overlay", "-",
                "onion", "mesh", "marks",
                ("Su&ggested marks", tuple(f"suggestions-{when}" for when in SUGGESTIONS)), "-",

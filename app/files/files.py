@@ -147,6 +147,19 @@ class Files(QObject):
             self.failed.emit(error)
             return
         self._settings.set_folder("import", paths[0].absolute().parent)
+        self._import(files, notes)
+
+    def import_drawing(self, data: bytes) -> None:
+        """Import from an SVG file that is in memory."""
+        notes: list[str] = []
+        try:
+            parts = importers.parse(data, self.tr("Drawing"), importers.SVG, notes.append)
+        except FileError as error:
+            self.failed.emit(error)
+        else:
+            self._import([parts], notes)
+
+    def _import(self, files: Sequence[Sequence[Part]], notes: Sequence[str]) -> None:
         document, layer = self._session.document, self._selection.layer
         if layer is None and len(files) == len(files[0]) == 1:
             fit = misplaced(files[0], document.size)

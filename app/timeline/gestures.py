@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QApplication
 from app.timeline.rows import Place
 from app.timeline.time_view import TimeView
 from app.workspace import Workspace
-from core.model.edits import move_keyframe
+from core.model import Keyframe
+from core.model.edits import insert_keyframe, move_keyframe
 
 FINEST_SCRUB = 2
 """Decimals of a frame when scrubbing between frames."""
@@ -93,6 +94,47 @@ class KeyDrag:
         if self._dragging:
             self._workspace.session.abandon()
             self._workspace.playhead.move_to(self._start)
+
+
+class KeyCopy:
+    """Puts a copy of a keyframe at a frame that is free; the playhead goes with it."""
+
+    def __init__(self, workspace: Workspace, view: TimeView, place: Place, x: float) -> None:
+        self._workspace, self._view = workspace, view
+        self._layer_id, key = place
+        self._layer = workspace.session.document.layer(self._layer_id)
+        self._copied = self._layer.keyframes[key]
+        self._grabbed = x
+        workspace.session.begin(QCoreApplication.translate("Timeline", "Copy keyframe"))
+
+    def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
+        """Follow the mouse, but not to other keys; back where it began there is no copy."""
+        frame = self._copied.frame + round((x - self._grabbed) / self._view.scale.pixels)
+        frame = max(frame, self._workspace.playhead.lowest)
+        if frame == self._copied.frame:
+            self._workspace.session.apply("", lambda document: document)
+        elif self._layer.key_at(frame) is None:
+            copy = Keyframe(frame, self._copied.outline, self._copied.marks)
+            self._workspace.session.apply("", insert_keyframe, self._layer_id, copy)
+        else:
+            return
+        self._go_to(frame)
+
+    def finish(self) -> None:
+        """Keep it there, as one undo step."""
+        self._workspace.session.commit()
+
+    def cancel(self) -> None:
+        """Take it away."""
+        self._workspace.session.abandon()
+        self._go_to(self._copied.frame)
+
+    def _go_to(self, frame: int) -> None:
+        """Choose the key at a frame, and go there."""
+        self._workspace.playhead.move_to(frame)
+        key = self._workspace.session.document.layer(self._layer_id).key_at(frame)
+        if key is not None:
+            self._workspace.selection.select_key(self._layer_id, key)
 
 
 class RangeDrag:

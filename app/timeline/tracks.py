@@ -18,7 +18,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from app.timeline import keys
-from app.timeline.gestures import Gesture, KeyDrag, Scrub
+from app.timeline.gestures import Gesture, KeyCopy, KeyDrag, Scrub
 from app.timeline.menu import TrackMenu
 from app.timeline.rows import Place, Rows
 from app.timeline.time_view import TimeView
@@ -84,7 +84,7 @@ class Tracks(TimeWidget):
         position = event.position()
         place = self.rows.key_at(position)
         if place is not None:
-            return self._grab(place, position.x())
+            return self._grab(place, event)
         self._choose(position)
         scrub = Scrub(self.workspace, self.view)
         scrub.move(position.x(), event.modifiers())
@@ -118,12 +118,15 @@ class Tracks(TimeWidget):
             selection.select_key(*place)
             TrackMenu(self.workspace, place, self).popup(event.globalPos())
 
-    def _grab(self, place: Place, x: float) -> Gesture | None:
+    def _grab(self, place: Place, event: QMouseEvent) -> Gesture | None:
         layer = self.workspace.session.document.layer(place[0])
         self.workspace.playhead.stop()
         self.workspace.selection.select_key(*place)
         self.workspace.playhead.move_to(layer.keyframes[place[1]].frame)
-        return None if layer.locked else KeyDrag(self.workspace, self.view, place, x)
+        if layer.locked:
+            return None
+        gesture = KeyCopy if event.modifiers() & Qt.KeyboardModifier.AltModifier else KeyDrag
+        return gesture(self.workspace, self.view, place, event.position().x())
 
     def _choose(self, position: QPointF) -> None:
         place, layer = self.rows.span_at(position), self.rows.layer_at(position.y())

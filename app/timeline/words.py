@@ -44,7 +44,9 @@ def _describe_key(workspace: Workspace, place: Place) -> str:
     head = _tr("{}: keyframe at frame {}").format(layer.name, layer.keyframes[place[1]].frame)
     if layer.passes(place[1]):
         head += "\n" + _tr("The motion passes through")
-    use = _tr("Locked") if layer.locked else _tr("Drag to move in time; Del deletes")
+    use = _tr("Drag moves it in time, Alt+drag a copy of it; Del deletes it")
+    if layer.locked:
+        use = _tr("Locked")
     return f"{head}\n{use}"
 
 

@@ -99,6 +99,25 @@ def draw_key(document: Document, layer_id: int, frame: int, outline: Outline) ->
     return edits.insert_keyframe(document, layer_id, Keyframe(frame, outline, marks))
 
 
+def paste_key(
+    document: Document, layer_id: int, frame: int, copied: Keyframe, labels: Sequence[str]
+) -> Document:
+    """Put a copy of a keyframe at a frame, in place of the outline there if there is one.
+
+    Marks of the same letters are copied, too; else they are proposed.
+    """
+    layer = document.layer(layer_id)
+    here = layer.key_at(frame)
+    if layer.labels != labels:
+        if here is None:
+            return draw_key(document, layer_id, frame, copied.outline)
+        return redraw_key(document, layer_id, here, copied.outline)
+    if here is None:
+        key = Keyframe(frame, copied.outline, copied.marks)
+        return edits.insert_keyframe(document, layer_id, key)
+    return edits.replace_outline(document, layer_id, here, copied.outline, copied.marks)
+
+
 def _matched(key: Keyframe, outline: Outline) -> list[RingPoint]:
     """Return the mates of a keyframe's marks on another outline, each after those before it."""
     pairs: list[tuple[RingPoint, RingPoint]] = []

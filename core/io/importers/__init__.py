@@ -31,8 +31,9 @@ class ImportFormat:
         return f"{self.name} ({' '.join(f'*{suffix}' for suffix in self.suffixes)})"
 
 
+SVG = ImportFormat("SVG drawing", (".svg",), svg.read)
 FORMATS = (
-    ImportFormat("SVG drawing", (".svg",), svg.read),
+    SVG,
     ImportFormat("Point list", (".csv", ".tsv", ".txt"), points_csv.read),
     ImportFormat("JSON point list", (".json",), points_json.read),
 )
@@ -43,12 +44,7 @@ def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
 
     FileError when it cannot be read or holds no shape.
     """
-    path, said = Path(path), list[str]()
-
-    def tell(text: str) -> None:
-        said.append(text)
-        warn(text)
-
+    path = Path(path)
     found = next((f for f in FORMATS if path.suffix.lower() in f.suffixes), None)
     try:
         if found is None:
@@ -56,15 +52,26 @@ def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
             raise FileError(f"The format is not known; it can be {known}.")
         if path.stat().st_size > MAX_BYTES:
             raise FileError(f"The file is larger than {MAX_BYTES >> 20} MB.")
-        parts = found.read(path.read_bytes(), path.stem, tell)
-        if not parts:
-            why = " ".join(dict.fromkeys(said))
-            raise FileError("The file holds no shape with an area.", hint=why)
-        return parts
+        return parse(path.read_bytes(), path.stem, found, warn)
     except OSError as error:
         raise unreadable(path, error) from error
     except FileError as error:
         raise FileError(error.what, where=Where(path=str(path)), hint=error.hint) from error
 
 
-__all__ = ["FORMATS", "ImportFormat", "Part", "Warn", "bounds", "fitted", "read"]
+def parse(data: bytes, name: str, form: ImportFormat, warn: Warn = ignore) -> list[Part]:
+    """Return the shapes in the content of a file, at least one; FileError where there is none."""
+    said: list[str] = []
+
+    def tell(text: str) -> None:
+        said.append(text)
+        warn(text)
+
+    parts = form.read(data, name, tell)
+    if not parts:
+        why = " ".join(dict.fromkeys(said))
+        raise FileError("The file holds no shape with an area.", hint=why)
+    return parts
+
+
+__all__ = ["FORMATS", "SVG", "ImportFormat", "Part", "Warn", "bounds", "fitted", "parse", "read"]

@@ -115,6 +115,42 @@ def test_a_drag_that_ends_where_it_began_leaves_no_step(
     assert workspace.session.undo_stack.count() == 0
 
 
+def test_dragging_a_key_with_alt_leaves_it_and_takes_a_copy_along_as_one_step(
+    timeline: Timeline, workspace: Workspace, mouse: Mouse
+) -> None:
+    before = workspace.session.document
+    mouse.press(x_of(timeline, 1), BOTTOM, modifiers=ALT)
+    mouse.move(x_of(timeline, 30), BOTTOM)  # over keys of its own layer
+    mouse.release()
+    assert frames(workspace) == [1, 13, 25, 30]
+    keys = workspace.session.document.layer(1).keyframes
+    assert (keys[3].outline, keys[3].marks) == (keys[0].outline, keys[0].marks)
+    assert chosen(workspace) == (1, 3)
+    assert workspace.playhead.frame == 30
+    assert workspace.session.undo_stack.count() == 1
+    workspace.session.undo()
+    assert workspace.session.document is before
+
+
+@pytest.mark.parametrize("end", ["Esc", "back where it began", "a mere click"])
+def test_no_copy_of_a_key_is_left_after(
+    end: str, timeline: Timeline, workspace: Workspace, mouse: Mouse
+) -> None:
+    before = workspace.session.document
+    mouse.press(x_of(timeline, 13), BOTTOM, modifiers=ALT)
+    if end != "a mere click":
+        mouse.move(x_of(timeline, 18), BOTTOM)
+        assert frames(workspace) == [1, 13, 18, 25]
+    if end == "Esc":
+        QTest.keyClick(timeline.tracks, Key.Key_Escape)
+    elif end == "back where it began":
+        mouse.move(x_of(timeline, 13), BOTTOM)
+    mouse.release()
+    assert workspace.session.document is before
+    assert workspace.session.undo_stack.count() == 0
+    assert chosen(workspace) == (1, 1)
+
+
 def test_a_hand_that_trembles_on_a_click_moves_no_key(
     timeline: Timeline, workspace: Workspace, mouse: Mouse
 ) -> None:
