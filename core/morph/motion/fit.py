@@ -13,6 +13,9 @@ from core.geometry.rotation import Complex, to_points
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
+KEPT = 2**25
+"""Bytes of answers to pushes that are kept: neighbouring frames are held at the same vertices."""
+
 
 class GradientFit:
     """Minimises Σ tr((F(x) − B) M (F(x) − B)ᵀ) over positions x, for ideal gradients B.
@@ -31,6 +34,8 @@ class GradientFit:
         matrix[0, 0] *= 2
         self._factor = Factor(matrix.tocsc())
         self._load = _load_operator(elements, weights)
+        self._answers: dict[int, Array] = {}
+        """By the vertex that is pushed."""
 
     def load(self, ideal: Complex) -> Array:
         """Return the right-hand sides (n, 2) for ideal gradients: turns and mirrors (2, m)."""
@@ -46,10 +51,21 @@ class GradientFit:
 
     def stiffness(self, vertices: Indices) -> Array:
         """Return K (k, k) of some vertices when all others follow: its Schur complement."""
-        unit = np.zeros((self._load.shape[0], len(vertices)))
-        unit[vertices, np.arange(len(vertices))] = 1
-        compliance = self.solve(unit)[vertices]
+        compliance = np.empty((len(vertices), len(vertices)))
+        for row, vertex in zip(compliance, vertices.tolist(), strict=True):
+            row[:] = self._answer(vertex)[vertices]
         return cast(Array, np.linalg.inv((compliance + compliance.T) / 2))
+
+    def _answer(self, vertex: int) -> Array:
+        """Return how far every vertex (n,) goes when one is pushed."""
+        answer = self._answers.get(vertex)
+        if answer is None:
+            unit = np.zeros((self._load.shape[0], 1))
+            unit[vertex] = 1
+            answer = self._answers[vertex] = self.solve(unit)[:, 0]
+            if len(self._answers) * answer.nbytes > KEPT:
+                del self._answers[next(iter(self._answers))]
+        return answer
 
 
 def _load_operator(elements: Elements, weights: Array) -> csr_array:
