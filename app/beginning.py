@@ -37,6 +37,8 @@ class Beginning(QObject):
         self._workspace, self._canvas, self._files = workspace, canvas, files
         self._welcome, self._layout = welcome, layout
         welcome.hide()
+        workspace.session.replaced.connect(self._on_replaced)
+        workspace.session.undo_stack.indexChanged.connect(self._on_step)
         welcome.new_asked.connect(self._new)
         welcome.open_asked.connect(self._open)
         welcome.import_asked.connect(self._import)
@@ -100,21 +102,28 @@ class Beginning(QObject):
         self._layout.bring_back()
         self.changed.emit()
 
+    def _on_replaced(self) -> None:
+        """Make room for a project of the artist's own; samples are for looking around."""
+        session = self._workspace.session
+        if self.welcoming and (session.path is not None or not session.document.layers):
+            self.end_welcome()
+
+    def _on_step(self, index: int) -> None:
+        """Make room for the first edit."""
+        if index and self.welcoming:
+            self.end_welcome()
+
     def _new(self) -> None:
         if self._files.new():
-            self.end_welcome()
             self._canvas.set_tool("pen")
 
     def _open(self) -> None:
-        if self._files.open():
-            self.end_welcome()
+        self._files.open()
 
     def _open_recent(self, path: Path) -> None:
-        if self._files.open_path(path):
-            self.end_welcome()
+        self._files.open_path(path)
 
     def _import(self) -> None:
         """Import into a new project: what is open is a sample, or was saved."""
         if self._files.new():
-            self.end_welcome()
             self._files.import_shapes()
