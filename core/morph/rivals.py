@@ -30,9 +30,11 @@ TURNING = 0.4
 """What half a turn adds to the cost of a map, as a fraction of it."""
 ALIKE = 0.05
 """Misfit below which correspondences hardly differ. Above, twice the misfit costs √2 times more."""
-SLIDING, SLIDES = 1.12, 2
+SLIDING, SLIDES = 1.12, 8
 """Mean distortion from which on the boundary may slide, and how often."""
-MENDABLE = 100.0
+WORTH = 0.05
+"""Part of its cost that a rival must save by sliding if it is to slide again."""
+MENDABLE = 20.0
 """What a triangle counts at most: mending will put right what is worse, or folded."""
 SKETCH = 256
 """Boundary vertices by which rivals are told apart: finer maps take longer, and say the same."""
@@ -72,7 +74,7 @@ class Choice:
 def choose(
     rivals: Iterable[Correspondence], frames: Frames, recipe: Recipe, watch: Watch
 ) -> Choice:
-    """Map the correspondences that may be the best one; improve the map of the one that is.
+    """Map the correspondences that may be the best one; improve whichever is, while another is not.
 
     ``rivals`` come the most likely first. ``watch(stage)`` is called between steps and may raise
     ``Cancelled``. Raises ``SolveError`` if there is no rival.
@@ -86,13 +88,8 @@ def choose(
         tried.append(_Tried.of(rival, ends, doubt, recipe, watch))
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
-    tried.sort(key=lambda each: each.cost)
-    best = tried[0].finished(frames, recipe, watch)
-    for other in tried[1:]:
-        if best.full_cost <= other.cost:
-            break
-        after = other.finished(frames, recipe, watch)
-        best = min(best, after, key=lambda each: each.full_cost)
+    while not (best := min(tried, key=lambda each: each.cost)).finished:
+        tried[tried.index(best)] = best.advanced(frames, recipe, watch)
     return Choice(best.rival, best.map, len(tried))
 
 
@@ -108,8 +105,10 @@ class _Tried:
     map: Map
     sketched: bool = False
     """Whether the map is of a sketch of the ends."""
-    final: bool = False
-    """Whether the map has been mended."""
+    mended: bool = False
+    """Whether the map has been."""
+    slides: int = SLIDES
+    """How often its boundary may still slide."""
 
     @classmethod
     def of(
@@ -128,30 +127,31 @@ class _Tried:
 
     @property
     def cost(self) -> float:
-        """What is left after mending, as far as one can tell before."""
-        return _cost(self.map.bounded_mean(MENDABLE), self.map.turn, self.doubt)
+        """What it costs; what is left after mending, as far as one can tell before."""
+        mean = self.map.mean if self.mended else self.map.bounded_mean(MENDABLE)
+        return _cost(mean, self.map.turn, self.doubt)
 
     @property
-    def full_cost(self) -> float:
-        return _cost(self.map.mean, self.map.turn, self.doubt)
+    def finished(self) -> bool:
+        """Whether nothing is left to be done."""
+        return self.mended and not self._may_slide
 
     @property
-    def slides(self) -> bool:
-        """Whether sliding may help, and does not take long."""
+    def _may_slide(self) -> bool:
+        """Whether sliding is possible, may help, and does not take long."""
+        possible = self.slides > 0 and self.rival.proposed and self.map.sound
         fine = self.map.mesh.boundary_size >= 2 * SKETCH
-        return (
-            bool(self.rival.proposed) and self.map.sound and self.map.mean >= SLIDING and not fine
-        )
+        return bool(possible) and self.map.mean >= SLIDING and not fine
 
-    def finished(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried:
-        """Return what it becomes: its boundary slid, as long as that helps, and its map mended."""
-        best = self.unfolded(recipe, watch)
-        for _ in range(SLIDES):
-            after = best.slid(frames, recipe, watch) if best.slides else None
-            if after is None or after.cost >= best.cost:
-                break
-            best = after
-        return best.drawn(recipe, watch).mended(recipe, watch)
+    def advanced(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried:
+        """Return it without folds; or slid, while that helps; or mended in the end."""
+        if not self._may_slide:
+            return self.drawn(recipe, watch).with_mended_map(recipe, watch)
+        after = self.slid(frames, recipe, watch)
+        saved = 0.0 if after is None else 1 - after.cost / self.cost
+        if after is None or saved <= 0:
+            return replace(self, slides=0)
+        return replace(after, slides=self.slides - 1 if saved >= WORTH else 0)
 
     def slid(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried | None:
         """Return the map, without folds, of what the boundary slides to; none if that fails."""
@@ -178,14 +178,14 @@ class _Tried:
 
     def unfolded(self, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it without folds."""
-        return self if self.map.sound else self.drawn(recipe, watch).mended(recipe, watch)
+        return self if self.map.sound else self.drawn(recipe, watch).with_mended_map(recipe, watch)
 
-    def mended(self, recipe: Recipe, watch: Watch) -> _Tried:
+    def with_mended_map(self, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it with folds and small angles put right."""
-        if self.final:
+        if self.mended:
             return self
         found = mended_map(self.map, *self.ends, recipe, watch)
-        return replace(self, map=found, final=True)
+        return replace(self, map=found, mended=True)
 
 
 def _sketched(ends: tuple[Rings, Rings]) -> tuple[Rings, Rings] | None:
