@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QObject, QSettings, QStandardPaths, Signal
@@ -11,6 +12,9 @@ from app.workspace import SUGGESTIONS, ViewOptions
 
 RECENT = 10
 VIEW_OPTIONS = ("mesh", "onion", "marks")
+COUNTS, TINTS = ("onion_before", "onion_after"), ("tint_before", "tint_after")
+COUNT = re.compile("[0-9]")
+TINT = re.compile("#[0-9a-f]{6}([0-9a-f]{2})?")
 
 
 class Settings(QObject):
@@ -79,7 +83,12 @@ class Settings(QObject):
 
     def load_view(self, view: ViewOptions) -> None:
         """Show what was shown last."""
-        options = {name: self._flag(f"view/{name}", getattr(view, name)) for name in VIEW_OPTIONS}
+        options: dict[str, object] = {
+            name: self._flag(f"view/{name}", getattr(view, name)) for name in VIEW_OPTIONS
+        }
+        for names, form, kind in ((COUNTS, COUNT, int), (TINTS, TINT, str)):
+            texts = {name: str(self._store.value(f"view/{name}")) for name in names}
+            options |= {name: kind(text) for name, text in texts.items() if form.fullmatch(text)}
         layout = "overlay" if self._store.value("view/layout") == "overlay" else "side by side"
         when = self._store.value("view/suggestions")
         suggestions = when if when in SUGGESTIONS else view.suggestions
@@ -87,7 +96,7 @@ class Settings(QObject):
 
     def save_view(self, view: ViewOptions) -> None:
         """Remember what is shown."""
-        for name in (*VIEW_OPTIONS, "layout", "suggestions"):
+        for name in (*VIEW_OPTIONS, *COUNTS, *TINTS, "layout", "suggestions"):
             self._store.setValue(f"view/{name}", getattr(view, name))
 
     def window_state(self) -> tuple[QByteArray, QByteArray] | None:

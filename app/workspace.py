@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
+from app.style import DARK
+
 if TYPE_CHECKING:
     from app.document.playhead import Playhead
     from app.document.selection import Selection
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
 
 Layout = Literal["side by side", "overlay"]
 ShowSuggestions = Literal["with the tool", "always", "never"]
+MOST_GHOSTS = 9
+"""Keyframes that the onion skin shows at most, before and after."""
 SUGGESTIONS: tuple[ShowSuggestions, ...] = ("with the tool", "always", "never")
 
 
@@ -30,6 +34,10 @@ class ViewOptions(QObject):
         super().__init__(parent)
         self.mesh = False
         self.onion = True
+        self.onion_before = self.onion_after = 1
+        """How many keyframes before and after the playhead the onion skin shows."""
+        self.tint_before, self.tint_after = DARK.source, DARK.target
+        """Their colours."""
         self.marks = True
         self.suggestions: ShowSuggestions = "with the tool"
         """When suggested marks are shown."""

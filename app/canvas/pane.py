@@ -15,7 +15,7 @@ from app.canvas.invitation import Invitation
 from app.canvas.marks_overlay import MarksOverlay
 from app.canvas.mesh_overlay import MeshOverlay
 from app.canvas.moment import Moment, Role, edited_key, picture_on_screen
-from app.canvas.onion import AFTER, BEFORE, OnionSkin
+from app.canvas.onion import OnionSkin, ghosts_at
 from app.canvas.overlay import ToolOverlay
 from app.canvas.pins import NO_PINS, pins_between, pins_on_key
 from app.canvas.suggestions_overlay import SuggestedPins, SuggestionsOverlay
@@ -156,14 +156,8 @@ class Pane(QWidget):
 
     def _show_onion(self, moment: Moment) -> None:
         wanted = self._workspace.view.onion and not self._workspace.playhead.playing
-        if not self.live or not wanted or moment.layer is None or not moment.layer.spans:
-            self._onion.show_outlines(())
-            return
-        before, after = moment.layer.keyframes[moment.span : moment.span + 2]
-        ends = ((before, colours().source, BEFORE), (after, colours().target, AFTER))
-        self._onion.show_outlines(
-            tuple((key.outline, *ink) for key, *ink in ends if key.frame != moment.frame)
-        )
+        keys = moment.layer.keyframes if moment.layer and self.live and wanted else ()
+        self._onion.show_ghosts(ghosts_at(moment.frame, keys, self._workspace.view))
 
     def _show_mesh(self, moment: Moment) -> None:
         if not self._workspace.view.mesh or moment.morph is None or moment.layer is None:

@@ -36,9 +36,11 @@ class ColourField(QWidget):
     closed = Signal(bool)
     """Whether the colour picked is to be kept."""
 
-    def __init__(self, name: str, parent: QWidget | None = None) -> None:
+    def __init__(self, name: str, parent: QWidget | None = None, *, optional: bool = True) -> None:
+        """Make one; unless ``optional``, there is always a colour."""
         super().__init__(parent)
         self._name, self._colour, self._last = name, "", "#808080"
+        self._optional = optional
         self._swatch = Swatch()
         self._swatch.setAccessibleName(self.tr("{}: pick a colour").format(name))
         self._swatch.setToolTip(self.tr("Pick a colour"))
@@ -53,6 +55,7 @@ class ColourField(QWidget):
         self._none.setMinimumSize(TARGET_SIZE, TARGET_SIZE)
         self._none.setAccessibleName(self.tr("{}: none").format(name))
         self._none.setToolTip(self.tr("None"))
+        self._none.setVisible(optional)
         self._none.clicked.connect(self._toggle_none)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -74,7 +77,7 @@ class ColourField(QWidget):
 
     def _take_text(self) -> None:
         value = parse(self._text.text())
-        if value is not None and value != self._colour:
+        if value is not None and value != self._colour and (value or self._optional):
             self.edited.emit(value)
         self._text.setText(self._colour)
 

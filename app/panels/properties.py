@@ -8,11 +8,12 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QVBoxLayout, QWidget
 from app.panels.document_section import DocumentSection
 from app.panels.layer_section import LayerSection
 from app.panels.mapping_section import MappingSection
+from app.panels.onion_section import OnionSection
 from app.panels.result_section import ResultSection
 from app.panels.span_section import KeyframeSection, SpanSection
 from app.workspace import Workspace
 
-WIDTH = 260
+WIDTH = 276
 
 
 class PropertiesPanel(QScrollArea):
@@ -29,6 +30,7 @@ class PropertiesPanel(QScrollArea):
         self.mapping = MappingSection(workspace)
         self.result = ResultSection(workspace)
         self.document = DocumentSection(workspace)
+        self.onion = OnionSection(workspace)
         self._sections = (
             self.layer,
             self.keyframe,
@@ -36,6 +38,7 @@ class PropertiesPanel(QScrollArea):
             self.mapping,
             self.result,
             self.document,
+            self.onion,
         )
         body = QWidget()
         column = QVBoxLayout(body)

@@ -124,6 +124,37 @@ def test_the_background_and_its_absence_are_shown(open_canvas):
     assert len(seen) == 2
 
 
+def test_the_onion_skin_shows_so_many_keys_on_either_side_fainter_farther_away(open_canvas):
+    layer = a_document(marks=False).layers[0]
+    keys = tuple(replace(layer.keyframes[0], frame=frame) for frame in (1, 5, 9, 13))
+    keys = tuple(
+        replace(key, outline=key.outline.transformed(np.eye(2), [60.0 * i - 120.0, 0.0]))
+        for i, key in enumerate(keys)
+    )
+    hand = open_canvas(replace(a_document(), layers=(replace(layer, keyframes=keys, labels=()),)))
+    hand.canvas.set_tool("freehand")
+    hand.workspace.view.update(tint_before="#ff0000", tint_after="#00ff00")
+
+    def ghosts() -> list[float]:
+        """How much colour there is where only the first, second … key has its left side."""
+        picture = image(hand.pane(BETWEEN))
+        view = hand.pane(BETWEEN).view
+        places = [view.to_screen((300 + 60 * i - 120 + dx, 270)) for i, dx in ((0, 30), (1, 30))]
+        right = view.to_screen((600 + 60 * 3 - 120 - 30, 270))
+        return [picture.pixelColor(*map(round, at)).saturationF() for at in (*places, right)]
+
+    show(hand, 9)
+    first, second, last = ghosts()
+    assert first == 0
+    assert second > 0
+    assert last > 0
+    hand.workspace.view.update(onion_before=2, onion_after=0)
+    QApplication.processEvents()
+    farther, nearer, last = ghosts()
+    assert 0 < farther < nearer
+    assert last == 0
+
+
 def test_an_in_between_is_dimmed_and_tagged_until_it_is_solved(open_canvas, qtbot):
     gate = threading.Event()
 

@@ -25,7 +25,7 @@ from pytestqt.qtbot import QtBot
 
 from app.fields.colour import Swatch
 from app.jobs.solver import SpanState
-from app.panels.properties import PropertiesPanel
+from app.panels.properties import WIDTH, PropertiesPanel
 from app.workspace import Workspace
 from core.model import Document, Easing, Turning
 from core.model.easing import EASE_IN, HOLD, PRESETS
@@ -45,7 +45,7 @@ def panel(workspace: Workspace, qtbot: QtBot) -> PropertiesPanel:
     workspace.playhead.move_to(13)
     panel = PropertiesPanel(workspace)
     qtbot.addWidget(panel)
-    panel.resize(260, 1300)
+    panel.resize(WIDTH, 1300)
     panel.show()
     qtbot.waitExposed(panel)
     panel.activateWindow()
@@ -543,7 +543,47 @@ def test_an_empty_document_shows_only_its_own_properties(
     workspace.session.replace(replace(Document(), fps=12.0))
     visible = [
         s
-        for s in ("layer", "keyframe", "span", "mapping", "result", "document")
+        for s in ("layer", "keyframe", "span", "mapping", "result", "document", "onion")
         if getattr(panel, s).isVisible()
     ]
     assert visible == ["document"]
+
+
+# -- onion skin --------------------------------------------------------------------------------
+
+
+def test_the_onion_skin_is_set_without_touching_the_document(
+    panel: PropertiesPanel, workspace: Workspace
+) -> None:
+    before, view = workspace.session.document, workspace.view
+    view.update(onion=False)
+    type_in(panel.onion.before, "3")
+    type_in(panel.onion.after, "0")
+    assert (view.onion_before, view.onion_after) == (3, 0)
+    assert view.onion  # what is set is seen
+    line = panel.onion.tint_after.findChild(QLineEdit)
+    type_in(line, "00ff00")
+    QTest.keyClick(line, Key.Key_Return)
+    assert view.tint_after == "#00ff00"
+    assert workspace.session.document is before
+    assert workspace.session.undo_stack.count() == 0
+
+
+def test_a_tint_cannot_be_none(panel: PropertiesPanel, workspace: Workspace) -> None:
+    tint = workspace.view.tint_before
+    line = panel.onion.tint_before.findChild(QLineEdit)
+    type_in(line, "none")
+    QTest.keyClick(line, Key.Key_Return)
+    assert workspace.view.tint_before == line.text() == tint
+    assert not panel.onion.tint_before.findChild(QToolButton).isVisible()
+
+
+def test_a_tint_that_was_only_tried_is_put_back(
+    panel: PropertiesPanel, workspace: Workspace
+) -> None:
+    tint = workspace.view.tint_before
+    picker = open_picker(panel, panel.onion.tint_before)
+    picker.setCurrentColor(QColor("#101010"))
+    assert workspace.view.tint_before == "#101010"
+    picker.reject()
+    assert workspace.view.tint_before == tint

@@ -19,6 +19,8 @@ from app.actions import ENTRIES
 from app.icons import pixmap
 from app.main_window import MainWindow
 from app.menus import MENUS, TOP_BAR, Items
+from app.style import DARK
+from app.workspace import ViewOptions
 from core.geometry.flatten import flatten
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
 from core.model.edits import move_nodes
@@ -307,6 +309,19 @@ def test_view_options_switch_and_are_remembered(window: MainWindow, open_window:
     assert again.workspace.view.mesh
     assert again.workspace.view.layout == "overlay"
     assert again.actions_["mesh"].isChecked()
+
+
+def test_the_onion_skin_is_remembered_and_damage_to_that_is_mended(
+    window: MainWindow, open_window: object
+) -> None:
+    window.workspace.view.update(onion_before=3, tint_after="#123456")
+    window.close()
+    again = open_window()
+    assert (again.workspace.view.onion_before, again.workspace.view.tint_after) == (3, "#123456")
+    for name, value in (("onion_before", "12"), ("onion_after", "x"), ("tint_after", "red")):
+        again.settings._store.setValue(f"view/{name}", value)
+    again.settings.load_view(fresh := ViewOptions())
+    assert (fresh.onion_before, fresh.onion_after, fresh.tint_after) == (1, 1, DARK.target)
 
 
 def test_draw_keyframe_here_makes_what_is_drawn_a_key_under_the_playhead(
