@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Self
 
 import numpy as np
@@ -68,11 +69,9 @@ class MarkedRing:
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """How all rings belong together, and how well."""
+    """How all rings belong together."""
 
     rings: Sequence[MarkedRing]
-    misfit: float = 0.0
-    """How ill the exteriors match: 0 is perfect, 1 is poor; 0 if the artist matched them."""
     mirror: bool = False
     """Whether the exterior would match the target's mirror image far better."""
 
@@ -108,6 +107,16 @@ class Correspondence:
     def proposed(self) -> tuple[ProposedMark, ...]:
         """The marks that were set on the rings on which there were none."""
         return tuple(mark for each in self.matching.rings for mark in each.proposed)
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """A way in which the outlines may belong together."""
+
+    misfit: float
+    """How ill the exteriors match: 0 is perfect, 1 is poor; 0 if the artist matched them."""
+    follow: Callable[[], Correspondence | None]
+    """Works it out; None where proposals contradict each other. May raise ``MarkError``."""
 
 
 def place_marks(
@@ -163,50 +172,60 @@ def unplace_marks(
     return tuple((place(mark, 0), place(mark, 1), mark.confidence) for mark in proposed)
 
 
-def correspondences(
+def ways(
     source: CleanOutline,
     target: CleanOutline,
     marks: Sequence[PlacedMark],
     labels: Sequence[str],
     density: int,
     watch: Watch = unwatched,
-) -> Iterator[Correspondence]:
-    """Yield boundaries that may belong together, the most likely first.
+) -> Iterator[Way]:
+    """Yield ways in which boundaries may belong together, the most likely first.
 
     With marks on the exterior they decide, and there is just one. The edges are split to the
     exteriors' perimeters over ``density``. ``watch(stage)`` is called between steps and may raise
     ``Cancelled``.
     """
-    spacings = [float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target)]
-    for matching in _matchings(source, target, marks, watch):
+    here, there = (float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
+    given = any(mark.rings[0] == 0 for mark in marks)
+
+    def follow(matching: Callable[[], Matching]) -> Correspondence | None:
         try:
-            yield Correspondence.of(matching, (spacings[0], spacings[1]), labels)
+            return Correspondence.of(matching(), (here, there), labels)
         except MarkError:
-            if any(mark.rings[0] == 0 for mark in marks):
-                raise  # otherwise it was a proposal, and there are others
+            if given:
+                raise
+            return None  # it was a proposal, and there are others
+
+    for misfit, matching in _matchings(source, target, marks, watch):
+        yield Way(misfit, partial(follow, matching))
 
 
 def _matchings(
     source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMark], watch: Watch
-) -> Iterator[Matching]:
+) -> Iterator[tuple[float, Callable[[], Matching]]]:
+    """Yield how ill the exteriors match, and what works the matching out."""
+    a, b = source.rings[0], target.rings[0]
     exterior = [mark for mark in marks if mark.rings == (0, 0)]
     fixed = [mark.lengths for mark in exterior]
     found: list[RingMatch] = []
     if not exterior or len(source.rings) > 1:
-        found = match_rings(source.rings[0], target.rings[0], fixed, watch=watch)
+        found = match_rings(a, b, fixed, watch=watch)
     proposals = [match for match in found if not match.mirrored]
+
+    def matching(match: RingMatch | None) -> Matching:
+        holes = _holes(source, target, marks, match, watch)
+        if exterior:
+            return Matching([_marked(source, target, exterior), *holes])
+        ring = _proposed(a, b, (0, 0), match or _shifted(a, b, RingPair(0, 0)))
+        return Matching([ring, *holes], mirror_is_better(found))
+
     if exterior:
-        ring, first = _marked(source, target, exterior), next(iter(proposals), None)
-        yield Matching([ring, *_holes(source, target, marks, first, watch)])
+        yield 0.0, partial(matching, next(iter(proposals), None))
         return
-    mirror = mirror_is_better(found)
-    a, b = source.rings[0], target.rings[0]
     for match in proposals:
-        ring = _proposed(a, b, (0, 0), match)
-        yield Matching([ring, *_holes(source, target, marks, match, watch)], match.cost, mirror)
-    ring = _proposed(a, b, (0, 0), _shifted(a, b, RingPair(0, 0)))
-    misfit = max((match.cost for match in proposals), default=1.0)
-    yield Matching([ring, *_holes(source, target, marks, None, watch)], misfit, mirror)
+        yield match.cost, partial(matching, match)
+    yield max((match.cost for match in proposals), default=1.0), partial(matching, None)
 
 
 def _holes(

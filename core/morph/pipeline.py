@@ -17,7 +17,7 @@ from core.model.layer import mark_labels
 from core.model.outline import Array
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
 from core.morph.certificate import Certificate
-from core.morph.correspondence import correspondences, place_marks, unplace_marks
+from core.morph.correspondence import place_marks, unplace_marks, ways
 from core.morph.mapping import Map
 from core.morph.morph import Morph
 from core.morph.motion.motion import Motion
@@ -56,9 +56,9 @@ def solve_outlines(
     _check_rings(*ends)
     placed = place_marks((source, target), ends, marks, labels)
     clock.start("mapping", 0.1)
-    rivals = correspondences(*ends, placed, labels, recipe.density, clock.watch)
+    possible = ways(*ends, placed, labels, recipe.density, clock.watch)
     here, there = frames = Frame.of(ends[0]), Frame.of(ends[1])
-    choice = choose(rivals, frames, recipe, clock.watch)
+    choice = choose(possible, frames, recipe, clock.watch)
     taken, found = choice.taken, choice.map
     clock.start("in-between", 0.9)
     mesh = found.mesh

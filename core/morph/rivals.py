@@ -18,7 +18,7 @@ from core.geometry.crossing import crosses_itself
 from core.geometry.validate import CleanOutline
 from core.model import Recipe
 from core.model.outline import Array
-from core.morph.correspondence import Correspondence
+from core.morph.correspondence import Correspondence, Way
 from core.morph.mapping import Map, direct_map, mended_map
 from core.morph.report import Stage
 from core.morph.sliding import slide
@@ -71,21 +71,24 @@ class Choice:
     """How many correspondences got a map."""
 
 
-def choose(
-    rivals: Iterable[Correspondence], frames: Frames, recipe: Recipe, watch: Watch
-) -> Choice:
+def choose(ways: Iterable[Way], frames: Frames, recipe: Recipe, watch: Watch) -> Choice:
     """Map the correspondences that may be the best one; improve whichever is, while another is not.
 
-    ``rivals`` come the most likely first. ``watch(stage)`` is called between steps and may raise
-    ``Cancelled``. Raises ``SolveError`` if there is no rival.
+    ``ways`` come the most likely first. ``watch(stage)`` is called between steps and may raise
+    ``Cancelled``. Raises ``SolveError`` if no way can be followed.
     """
     tried: list[_Tried] = []
-    for rival in rivals:
-        ends = _inside(rival, frames)
-        doubt = _doubt(rival, tried[0].rival if tried else rival)
-        if tried and _cost(GOOD, _turn(*ends), doubt) >= min(each.cost for each in tried):
+    likeliest, least = 0.0, np.inf
+    for way in ways:
+        doubt = _doubt(way.misfit, likeliest) if tried else 1.0
+        if _cost(GOOD, 0.0, doubt) >= least or (rival := way.follow()) is None:
             continue
+        ends = _inside(rival, frames)
+        if _cost(GOOD, _turn(*ends), doubt) >= least:
+            continue
+        likeliest = likeliest if tried else way.misfit
         tried.append(_Tried.of(rival, ends, doubt, recipe, watch))
+        least = min(least, tried[-1].cost)
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
     while not (best := min(tried, key=lambda each: each.cost)).finished:
@@ -201,8 +204,8 @@ def _cost(distortion: float, turn: float, doubt: float) -> float:
     return distortion * (1 + TURNING * abs(turn) / np.pi) * doubt
 
 
-def _doubt(rival: Correspondence, likeliest: Correspondence) -> float:
-    return float(np.sqrt((ALIKE + rival.matching.misfit) / (ALIKE + likeliest.matching.misfit)))
+def _doubt(misfit: float, least: float) -> float:
+    return float(np.sqrt((ALIKE + misfit) / (ALIKE + least)))
 
 
 def _turn(source: Rings, target: Rings) -> float:

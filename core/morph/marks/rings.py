@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Self
 
 import numpy as np
@@ -37,7 +38,10 @@ class RingMatch:
     """The mirror image if the match is mirrored."""
     perimeters: Array
     """(2,) of the rings as drawn."""
-    route: Route
+    proposal: Match
+    """The match as it was found, and …"""
+    lead: Callable[[Match], Route]
+    """… what corrects it, once that is asked for."""
 
     @classmethod
     def by_length(cls, source: Array, target: Array, starts: Pair) -> Self:
@@ -47,17 +51,22 @@ class RingMatch:
         places = zip(contours, np.array(starts) / perimeters, strict=True)
         here, there = (at.translated(np.array([start])) + np.arange(2) for at, start in places)
         unsure = Match(here, there, 1.0, np.zeros(1), np.zeros(1), mirrored=False)
-        return cls(*contours, perimeters, Route.plain(unsure))
+        return cls(*contours, perimeters, unsure, Route.plain)
+
+    @cached_property
+    def route(self) -> Route:
+        """The match, led through corners that belong together."""
+        return self.lead(self.proposal)
 
     @property
     def cost(self) -> float:
         """How ill the rings match: 0 is perfect, 1 is poor."""
-        return self.route.match.cost
+        return self.proposal.cost
 
     @property
     def mirrored(self) -> bool:
         """Whether it takes the mirror image of the target."""
-        return self.route.match.mirrored
+        return self.proposal.mirrored
 
     def marks(self) -> tuple[Array, Array, Array]:
         """Return the marks that it takes besides the fixed ones, in order along the source.
@@ -85,7 +94,7 @@ class RingMatch:
         once = once[::-1] if self.source.backwards else once
         source, target = np.unwrap(np.vstack([once, once[:1]]), axis=0, period=1.0).T
         match = replace(self.route.match, source=source, target=target)
-        return replace(self, route=Route.of(self.source, self.target, match))
+        return replace(self, proposal=match, lead=partial(Route.of, self.source, self.target))
 
     def confirmed_by(self, fixed: Sequence[Pair]) -> bool:
         """Whether pairs of arc lengths lie on the match."""
@@ -102,12 +111,13 @@ class RingMatch:
         """
         pairs = _pairs(self.source, self.target, self.perimeters, fixed)
         match, keys = self.route.match, self.route.match.source[self.route.key_knots()]
-        route = Route.of(self.source, self.target, match, pairs, keys)
-        return replace(self, route=route)
+        lead = partial(Route.of, self.source, self.target, fixed=pairs, keys=keys)
+        return replace(self, proposal=match, lead=lead)
 
     def reversed(self) -> RingMatch:
         """Return the same match, seen from the target."""
-        return RingMatch(self.target, self.source, self.perimeters[::-1], self.route.reversed())
+        back, route = self.perimeters[::-1], self.route.reversed()
+        return RingMatch(self.target, self.source, back, route.match, lambda _: route)
 
     def mate(self, length: float) -> float:
         """Return where an arc length belongs; that of a corner is drawn to a corner like it."""
@@ -157,7 +167,8 @@ def match_rings(
     found = []
     for match in match_contours(a, b, pairs, rotation, watch):
         there = b.mirrored() if match.mirrored else b
-        found.append(RingMatch(a, there, perimeters, Route.of(a, there, match, pairs)))
+        lead = partial(Route.of, a, there, fixed=pairs)
+        found.append(RingMatch(a, there, perimeters, match, lead))
     return found
 
 

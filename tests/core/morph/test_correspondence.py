@@ -13,7 +13,7 @@ from core.geometry.validate import CleanOutline, clean
 from core.model import Outline, RingPoint
 from core.model.outline import Array
 from core.morph.boundary import BoundaryPair
-from core.morph.correspondence import PlacedMark, correspondences, place_marks
+from core.morph.correspondence import PlacedMark, place_marks, ways
 from tests.core.morph.polygons import hole
 from tests.core.shapes import ellipse, letter_l, rotation, square_ring, star_shaped
 
@@ -27,8 +27,8 @@ def cleaned(*rings: Array) -> CleanOutline:
 def proposals(
     source: CleanOutline, target: CleanOutline, marks: list[PlacedMark] | None = None
 ) -> list[list[BoundaryPair]]:
-    found = correspondences(source, target, marks or [], "abcd", DENSITY)
-    return [each.boundaries for each in found]
+    found = (way.follow() for way in ways(source, target, marks or [], "abcd", DENSITY))
+    return [each.boundaries for each in found if each]
 
 
 def mark(index: int, source: float, target: float, rings: tuple[int, int] = (0, 0)) -> PlacedMark:
@@ -114,11 +114,11 @@ def test_marks_that_join_rings_of_different_kinds_are_refused_by_name(
 def test_matching_can_be_stopped_before_every_ring() -> None:
     ends = cleaned(*square_ring()), cleaned(*square_ring(0.3))
     calls: list[str] = []
-    first = next(correspondences(*ends, [], "", DENSITY, calls.append))
+    first = next(ways(*ends, [], "", DENSITY, calls.append)).follow()
     assert len(calls) >= len(first.boundaries) == 2
 
     def stop(stage: str) -> None:
         raise Cancelled
 
     with pytest.raises(Cancelled):
-        next(correspondences(*ends, [], "", DENSITY, stop))
+        next(ways(*ends, [], "", DENSITY, stop))

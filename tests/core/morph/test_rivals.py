@@ -9,7 +9,7 @@ from core.model import Recipe
 from core.model.outline import Array
 from core.morph import rivals
 from core.morph.boundary import BoundaryPair
-from core.morph.correspondence import Correspondence, Matching
+from core.morph.correspondence import Correspondence, Matching, Way
 from core.morph.mapping import Map
 from core.morph.rivals import SKETCH, Choice, Frame, choose
 from core.progress import unwatched
@@ -26,7 +26,7 @@ def chosen(*targets: Array) -> Choice:
         Correspondence(Matching(()), [BoundaryPair(source, target)], (0.1, 0.1), ())
         for target in targets
     ]
-    return choose(ways, FRAMES, Recipe(), unwatched)
+    return choose([Way(0.0, lambda way=way: way) for way in ways], FRAMES, Recipe(), unwatched)
 
 
 def test_the_better_of_two_finely_drawn_rivals_is_taken_and_mapped_with_all_its_vertices() -> None:
