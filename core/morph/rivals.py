@@ -32,8 +32,8 @@ ALIKE = 0.05
 """Misfit below which correspondences hardly differ. Above, twice the misfit costs √2 times more."""
 SLIDING, SLIDES = 1.12, 8
 """Mean distortion from which on the boundary may slide, and how often."""
-WORTH = 0.05
-"""Part of its cost that a rival must save by sliding if it is to slide again."""
+WORTH = 0.06
+"""What a rival must save by sliding if it is to slide again."""
 MENDABLE = 20.0
 """What a triangle counts at most: mending will put right what is worse, or folded."""
 SKETCH = 256
@@ -151,7 +151,7 @@ class _Tried:
         if not self._may_slide:
             return self.drawn(recipe, watch).with_mended_map(recipe, watch)
         after = self.slid(frames, recipe, watch)
-        saved = 0.0 if after is None else 1 - after.cost / self.cost
+        saved = 0.0 if after is None else self.cost - after.cost
         if after is None or saved <= 0:
             return replace(self, slides=0)
         return replace(after, slides=self.slides - 1 if saved >= WORTH else 0)
