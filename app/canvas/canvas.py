@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.camera import Camera
 from app.canvas.hand import HAND_KEYS, Hand
-from app.canvas.moment import Moment, Role, moment_of
+from app.canvas.moment import Moment, Role, keys_in_view, moment_of, nearest_in_view
 from app.canvas.pane import Pane
 from app.canvas.panes import Panes
 from app.canvas.pointer import Pointer
@@ -157,6 +157,7 @@ class Canvas(QWidget):
     def _refresh(self) -> None:
         """Show what changed: while the playhead moves within a span, the panes of keys stay."""
         self._refresh_due = False
+        self._select_in_view()
         before, self._moment = self._moment, moment_of(self._workspace, patient=not self._late)
         self._arranged.show_board(self._moment.document.size)
         keys_stay = before is not None and before.span == self._moment.span
@@ -166,6 +167,18 @@ class Canvas(QWidget):
         self._tool.look_again()
         self._after_tool()
         self._keep_patience()  # last, for it is by looking that frames are found to be missing
+
+    def _select_in_view(self) -> None:
+        """Select the key that is worked in, or at least one that is seen."""
+        layer, playhead = self._workspace.selection.layer, self._workspace.playhead
+        if layer is None or playhead.playing:
+            return
+        focused = [pane.key for pane in self._focused_panes() if pane.key is not None]
+        if focused:
+            self._workspace.selection.select_key(layer.id, focused[0])
+        elif self._workspace.selection.key not in keys_in_view(layer, playhead.frame):
+            key = nearest_in_view(layer, playhead.frame)
+            self._workspace.selection.select_key(layer.id, key)
 
     def _keep_patience(self) -> None:
         """Do not dim what is there in a moment: it would only flicker."""

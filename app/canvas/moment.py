@@ -132,16 +132,31 @@ def shown_by(workspace: Workspace) -> Callable[[Span], Shown | None]:
     return shown
 
 
+def keys_in_view(layer: Layer, frame: float) -> range:
+    """Return which keyframes of a layer are seen at a frame: both ends of the span there."""
+    span, _ = layer.span_at(frame)
+    return range(span, len(layer.keyframes))[:2]
+
+
+def nearest_in_view(layer: Layer, frame: float) -> int:
+    """Return which of the keyframes that are seen at a frame is nearer to it."""
+    return keys_in_view(layer, frame)[round(layer.span_at(frame)[1])]
+
+
 def edited_key(workspace: Workspace, role: Role) -> int | None:
     """Return the keyframe of the current layer that the tools change in a pane, if any.
 
-    In the overlay it is the key under the playhead, or else the selected one.
+    In the overlay it is the key under the playhead, or else the one of the span around it that is
+    selected, or else the nearer one.
     """
-    layer = workspace.selection.layer
+    layer, frame = workspace.selection.layer, workspace.playhead.frame
     if layer is None or role is Role.IN_BETWEEN:
         return None
-    if role is Role.OVERLAY:
-        here = layer.key_at(workspace.playhead.frame)
-        return workspace.selection.key if here is None else here
-    key = layer.span_at(workspace.playhead.frame)[0] + (role is Role.TARGET)
-    return key if key < len(layer.keyframes) else None
+    seen = keys_in_view(layer, frame)
+    if role is not Role.OVERLAY:
+        key = seen[0] + (role is Role.TARGET)
+        return key if key in seen else None
+    here, selected = layer.key_at(frame), workspace.selection.key
+    if here is not None:
+        return here
+    return selected if selected in seen else nearest_in_view(layer, frame)

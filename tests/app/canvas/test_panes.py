@@ -68,6 +68,46 @@ def test_titles_say_what_each_pane_shows(hand: Hand):
     assert hand.pane(OVERLAY).title == "Overlay · frame 25 · t 1.00 · editing frame 25"
 
 
+def test_the_overlay_edits_a_key_of_the_span_that_is_seen(open_canvas):
+    document = a_document(marks=False)
+    layer = document.layers[0]
+    keys = [replace(layer.keyframes[0], frame=frame) for frame in (1, 11, 21, 31)]
+    hand = open_canvas(replace(document, layers=(replace(layer, keyframes=tuple(keys)),)))
+    hand.workspace.view.update(layout="overlay")
+
+    def edited() -> int:
+        return hand.pane(OVERLAY).keyframe.frame
+
+    for frame, seen in ((2, 1), (10, 1), (11, 11), (18, 11), (21, 21), (29, 21)):
+        show(hand, frame)
+        assert edited() == seen, frame
+    hand.workspace.selection.select_key(1, 3)
+    for frame, chosen in ((22, 31), (30, 31), (21, 21), (14, 21)):
+        show(hand, frame)
+        assert edited() == chosen, frame
+
+
+def test_the_selected_key_is_one_that_is_seen(open_canvas):
+    document = a_document(marks=False)
+    layer = document.layers[0]
+    keys = [replace(layer.keyframes[0], frame=frame) for frame in (1, 11, 21, 31)]
+    hand = open_canvas(replace(document, layers=(replace(layer, keyframes=tuple(keys)),)))
+    selection = hand.workspace.selection
+    selection.select_key(1, 0)
+    selection.select_nodes(frozenset({(0, 1)}))
+    hand.pane(BETWEEN).view.setFocus()
+    for frame, key in ((8, 0), (14, 1), (18, 1), (29, 3), (22, 3), (11, 1)):
+        show(hand, frame)
+        assert selection.key == key, frame
+    assert selection.nodes == frozenset()  # those of a key that is out of sight
+    hand.pane(TARGET).view.setFocus()
+    show(hand, 28)
+    assert selection.key == 3
+    hand.workspace.playhead.play(from_start=True)
+    QApplication.processEvents()
+    assert selection.key == 3  # while it plays, nothing is chosen
+
+
 def test_the_panes_show_source_in_between_and_target(hand: Hand):
     show(hand, 13)
     only_source, only_target = (310, 200), (660, 160)
