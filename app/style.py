@@ -221,6 +221,10 @@ def _sheet(c: Colours) -> str:
     MessageBar {{ border: 1px solid {c.line}; border-radius: {RADIUS}px; }}
     WelcomePanel {{ border: 0; border-left: 1px solid {c.line}; }}
     WelcomePanel QPushButton {{ padding: 4px 6px; }}
+    QLabel#problem {{
+        background: {c.error_ground}; border: 1px solid {c.error}; border-radius: {RADIUS}px;
+        padding: 6px 10px;
+    }}
     QLabel#title {{ font-size: 14pt; font-weight: 600; }}
     QLabel#heading {{ color: {c.muted}; font-weight: 600; padding-top: 6px; }}
     QToolTip {{

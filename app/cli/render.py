@@ -41,7 +41,10 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="pixels to fit into (default: the artboard's)",
     )
     parser.add_argument(
-        "--format", choices=("png", "svg", "npz"), default="png", help="kind of file (default png)"
+        "--format",
+        choices=("png", "apng", "svg", "npz"),
+        default="png",
+        help="kind of file; apng is one animated picture (default png)",
     )
     parser.add_argument(
         "--background",
@@ -61,7 +64,7 @@ def run(options: Namespace) -> int:
     chosen = BY_KEY[options.format]
     if not chosen.paints and (options.size or options.background is not None):
         options.parser.error(f"--size and --background mean nothing to {chosen.key} files")
-    if chosen.key == "png":
+    if chosen.key in ("png", "apng"):
         require_qt("PySide6.QtGui", OFFSCREEN_PACKAGES, "--format svg works without them.")
     document = project.load(options.file)
     export = Export(

@@ -107,6 +107,7 @@ class ExportDialog(QDialog):
         self.problem.setText(problem)
         self.problem.setVisible(bool(problem))
         self._turn_to(FORM, self.go)
+        self.adjustSize()
 
     def _turn_to(self, face: int, button: QPushButton) -> None:
         self.faces.setCurrentIndex(face)
@@ -114,6 +115,8 @@ class ExportDialog(QDialog):
         button.setFocus()
 
     def _on_edited(self) -> None:
+        """What went wrong was about the choices before."""
+        self.problem.hide()
         self.go.setEnabled(self.form.ready)
 
     def reject(self) -> None:
@@ -129,7 +132,7 @@ class ExportDialog(QDialog):
         super().closeEvent(event)
 
     def _make_widgets(self) -> None:
-        self.problem = QLabel(wordWrap=True)
+        self.problem = QLabel(wordWrap=True, objectName="problem")
         self.problem.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.problem.setAccessibleName(self.tr("What went wrong"))
         self.go = QPushButton(self.tr("&Export"))

@@ -81,7 +81,7 @@ class ExportForm(QWidget):
     def paths(self) -> list[Path]:
         """Return the files that will be written, as far as their names are known."""
         export = self.export()
-        if not export.format.paints:
+        if not export.format.numbered:
             return [export.folder / f"{export.stem}{export.format.suffix}"]
         return [
             export.folder / f"{export.stem}-{frame:04d}{export.format.suffix}"

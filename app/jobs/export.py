@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from app.jobs.solve_all import solve_all
 from app.render.film import DocumentFilm
-from core.io.exporters import ExportFormat, Size
+from app.render.formats import ExportFormat
+from core.io.exporters import Size
 from core.model import Document
 from core.morph.scene import Span
 from core.progress import Progress

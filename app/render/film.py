@@ -38,6 +38,11 @@ class DocumentFilm:
         return _Computed(self.picture, range(first, last + 1))
 
     @property
+    def fps(self) -> float:
+        """Frames a second."""
+        return self.document.fps
+
+    @property
     def tracks(self) -> Sequence[Track]:
         """The meshes of the visible layers, one a span."""
         return [

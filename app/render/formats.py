@@ -1,7 +1,11 @@
 """Every format that frames can be exported to; dialogs and the command line are built from it."""
 
+from __future__ import annotations
+
+from app.render.animation import ANIMATION, AnimationFormat
 from app.render.png import PNG
 from core.io import exporters
 
-FORMATS: tuple[exporters.ExportFormat, ...] = (PNG, *exporters.FORMATS)
+ExportFormat = exporters.ExportFormat | AnimationFormat
+FORMATS: tuple[ExportFormat, ...] = (PNG, ANIMATION, *exporters.FORMATS)
 BY_KEY = {entry.key: entry for entry in FORMATS}

@@ -12,6 +12,7 @@ from PySide6.QtSvg import QSvgRenderer
 
 from app.jobs.export import Export
 from app.jobs.solve_all import solve_all
+from app.render import animation
 from app.render.film import DocumentFilm
 from app.render.formats import BY_KEY, FORMATS
 from app.render.painter import colour, outline_path, render_image
@@ -24,6 +25,7 @@ from core.model.picture import Picture, Shape
 from core.morph.morph import Morph
 from core.morph.scene import picture_at
 from core.progress import silent
+from tests.core.io.test_apng import read
 
 SQUARE = np.array([[20, 20], [80, 20], [80, 80], [20, 80]], dtype=float)
 HOLE = SQUARE / 2 + 25
@@ -248,5 +250,33 @@ def test_a_background_takes_the_place_of_the_documents() -> None:
     assert [shown.frame for shown in film.pictures[:1]] == [1]
 
 
+def test_an_animation_is_one_file_of_the_frames_as_they_are_seen(tmp_path: Path) -> None:
+    shown = document(Easing(), Easing())
+    export = Export(shown, (1, 5), BY_KEY["apng"], tmp_path, "bar", (64, 48), "")
+    (path,) = export.run({}, silent)
+    assert path == tmp_path / "bar.png"
+    frames, seconds = read(path.read_bytes())
+    film = DocumentFilm(shown, (1, 5), solve_all(shown).get, background="")
+    for frame, picture in zip(frames, film.pictures, strict=True):
+        assert frame.shape == (48, 64, 4)
+        assert np.array_equal(frame, animation.pixels(picture, (64, 48)))
+    assert not np.array_equal(frames[0], frames[-1])
+    assert frames[0][..., 3].min() == 0
+    assert seconds == pytest.approx([1 / shown.fps] * 5)
+    assert QImage(str(path)).size().toTuple() == (64, 48)
+
+
+def test_a_cancelled_animation_leaves_nothing(tmp_path: Path) -> None:
+    def stop(fraction: float, stage: str) -> None:
+        if stage == "Frame 3 of 5":
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        Export(document(Easing(), Easing()), (1, 5), BY_KEY["apng"], tmp_path / "new", "bar").run(
+            {}, stop
+        )
+    assert not list(tmp_path.iterdir())
+
+
 def test_formats_have_keys_of_their_own() -> None:
-    assert [entry.key for entry in FORMATS] == list(BY_KEY) == ["png", "svg", "npz"]
+    assert [entry.key for entry in FORMATS] == list(BY_KEY) == ["png", "apng", "svg", "npz"]

@@ -1,6 +1,6 @@
 """Frames to files: one module a format, behind this registry.
 
-PNG needs Qt to paint; ``app.render.formats`` adds it.
+PNG and animations need Qt to paint; ``app.render.formats`` adds them.
 """
 
 from core.io.exporters.film import Film, Size, Track

@@ -39,5 +39,9 @@ class Film(Protocol):
         """Every frame as it is seen."""
 
     @property
+    def fps(self) -> float:
+        """Frames a second."""
+
+    @property
     def tracks(self) -> Sequence[Track]:
         """The meshes that make the frames."""

@@ -53,6 +53,8 @@ class SequenceFormat:
     write: Write
     paints = True
     """Size and background mean something to it."""
+    numbered = True
+    """It is one file a frame."""
 
     def export(
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress

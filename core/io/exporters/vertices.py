@@ -50,6 +50,8 @@ class VertexFormat:
     suffix = ".npz"
     paints = False
     """Size and background mean nothing to it."""
+    numbered = False
+    """It is not one file a frame."""
 
     def export(
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress

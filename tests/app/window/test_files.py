@@ -473,6 +473,23 @@ def test_an_export_that_fails_says_why_and_can_be_tried_again(
     QTest.mouseClick(export.go, LEFT)
     qtbot.waitUntil(lambda: export.faces.currentIndex() == FORM)
     assert export.problem.text() == "The layer cannot be solved. Mend it."
+    assert export.problem.isVisible()
+    QTest.keyClicks(export.form.stem, "2")
+    assert export.problem.isHidden()  # it was about the choices before
+
+
+def test_an_animation_is_exported_as_one_file(
+    export: ExportDialog, tmp_path: Path, qtbot: QtBot
+) -> None:
+    form = export.form
+    form.format.setFocus()
+    QTest.keyClick(form.format, Qt.Key.Key_Down)
+    assert form.preview.text() == "card.png"
+    assert form.wide.isEnabled()
+    QTest.mouseClick(export.go, LEFT)
+    qtbot.waitUntil(lambda: export.faces.currentIndex() == DONE)
+    assert "One file" in export.summary.text()
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["card.png"]
 
 
 def test_closing_the_dialog_while_exporting_ends_the_thread(
