@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from functools import partial
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from app.jobs.frames import Frames
 from app.jobs.inspector import Inspector
 from app.jobs.solver import Solver
 from app.jobs.suggestions import Suggestions
+from app.jobs.worker import strays
 from app.keys import KeyManners
 from app.menus import PANELS, RECENT, TOOLS, TOP_BAR, Actions
 from app.panels.layers import LayersPanel
@@ -245,7 +247,10 @@ def run(path: Path | None) -> int:
     watch_faults(window.reporter.show_fault)
     window.show()
     QTimer.singleShot(0, window, partial(window.begin, path))
-    return int(app.exec())
+    code = int(app.exec())
+    if strays():
+        os._exit(code)  # everything is saved by now; to wait for what hangs would be to hang
+    return code
 
 
 def _new_workspace(window: QMainWindow) -> Workspace:

@@ -26,7 +26,17 @@ SWITCH_SECONDS = 0.0005
 STACK = 16 * 2**20
 """Bytes: the mesher recurses deeper than the default stack of a thread allows on some systems."""
 
+PATIENCE_MS = 3000
+"""Milliseconds that the end of a thread is waited for."""
+
 log = logging.getLogger(__name__)
+_strays: list[tuple[QThread, QObject]] = []
+"""Threads that did not end in time, with what lives in them: both must outlast them."""
+
+
+def strays() -> bool:
+    """Return whether a thread goes on after its worker was closed; the process must not wait."""
+    return any(thread.isRunning() for thread, _ in _strays)
 
 
 class Worker(QObject):
@@ -80,14 +90,20 @@ class Worker(QObject):
             self._job.stop.set()
 
     def close(self) -> None:
-        """Stop the work and end the thread; nothing is emitted any more."""
+        """Stop the work and end the thread; nothing is emitted any more.
+
+        Work that hears nothing of being stopped is left to itself after a while.
+        """
         if self._runner is None:
             return
         self.cancel()
         self._runner.done.disconnect(self._on_done)
         self._runner.progressed.disconnect(self._on_progressed)
         self._thread.quit()
-        self._thread.wait()
+        if not self._thread.wait(PATIENCE_MS):
+            log.error("%s does not end", self._thread.objectName())
+            self._thread.setParent(None)
+            _strays.append((self._thread, self._runner))
         if self._job:
             self._end()
         self._runner = None
