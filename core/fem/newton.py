@@ -183,8 +183,9 @@ def step_of(vertices: FreeVertices, terms: Terms) -> Step:
 def line_search(elements: Elements, density: Density, x: Array, step: Step) -> tuple[Array, float]:
     """Return (new positions, new energy) of Σ A ψ further along a step.
 
-    Under a barrier the first try stops short of the first flat triangle, and a full step is made
-    longer while that helps: away from a pole Newton's method creeps (on σ⁻², by a third of σ).
+    Under a barrier the first try stops short of the first flat triangle. Where a full step gains
+    more than its quadratic model says, it is made longer while that helps: away from a pole
+    Newton's method creeps (on σ⁻², by a third of σ).
     """
 
     def objective(y: Array) -> float:
@@ -195,7 +196,7 @@ def line_search(elements: Elements, density: Density, x: Array, step: Step) -> t
     reach = STEP_TO_FLAT * step_to_flat(elements, x, step.direction)
     y, value = backtrack(objective, x, step, min(1.0, reach))
     length = GROWTH
-    while length < reach and value < step.energy:
+    while length < reach and value < step.energy + step.slope / 2:
         longer = x + length * step.direction
         if (after := objective(longer)) >= value:
             break

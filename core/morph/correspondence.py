@@ -133,11 +133,10 @@ def place_marks(
         for side, outline, place, end in zip(
             ("source", "target"), outlines, pair, ends, strict=True
         ):
-            track, ring = tracks(outline)[place.ring], end.rings[place.ring]
+            track = tracks(outline)[place.ring]
             length = end.length_of(place.ring, track.vertex_of(place.at))
-            point = track.point_at(place.at)
-            away = points_at(ring, arc_lengths(ring), np.array([length]))[0] - point
-            if np.hypot(*away) > OFF_OUTLINE * end.diagonal:
+            point = track.point_at(place.at) if end.repairs else None
+            if point is not None and _strayed(end, place.ring, length, point):
                 raise MarkError(
                     f"Mark {labels[index]} lies on a part of the {side} that had to be cut off.",
                     where=Where(side, point=(float(point[0]), float(point[1])), marks=(index,)),
@@ -155,6 +154,13 @@ def place_marks(
             )
         placed.append(PlacedMark(rings, (lengths[0], lengths[1]), index))
     return placed
+
+
+def _strayed(end: CleanOutline, ring: int, length: float, point: Array) -> bool:
+    """Whether an arc length lies off the point that it stands for."""
+    points = end.rings[ring]
+    away = points_at(points, arc_lengths(points), np.array([length]))[0] - point
+    return bool(np.hypot(*away) > OFF_OUTLINE * end.diagonal)
 
 
 def unplace_marks(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import islice
 from time import perf_counter
 
@@ -28,6 +29,8 @@ from core.progress import Progress, Watch, silent
 
 POOR = 1.2
 """Mean distortion above which it is worth telling that the target matches far better mirrored."""
+KEPT = 64
+"""How many outlines are remembered clean."""
 
 
 def solve_outlines(
@@ -95,7 +98,9 @@ def _inbetween(
     return Motion.of(method, (rest, target), triangles, watch=watch)
 
 
+@lru_cache(maxsize=KEPT)
 def _cleaned(outline: Outline, side: str) -> CleanOutline:
+    """Clean an outline, once for all: its marks change far more often."""
     return clean([line.points for line in flatten(outline)], side)
 
 
