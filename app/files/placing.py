@@ -79,8 +79,9 @@ def add_layers(document: Document, parts: Sequence[Part], frame: int) -> Documen
     """Add a layer for each part, the first lowest."""
     for part in parts:
         document = add_layer(document, part.name, frame, part.outline)
-        style = part.style_on(document.background)
-        document = update_layer(document, document.layers[-1].id, style=style)
+        if part.style is not None:
+            style = part.style_on(document.background)
+            document = update_layer(document, document.layers[-1].id, style=style)
     return document
 
 

@@ -26,6 +26,7 @@ from core.model import (
 )
 from core.model.outline import MIN_NODES
 from core.model.structure import problems
+from core.model.style import FILLS
 from tests.core.model.shapes import documents, easings, layers, outlines, places
 
 Call = tuple[Callable[..., Document], tuple[Any, ...]]
@@ -265,6 +266,16 @@ def test_a_hidden_layer_that_carries_a_visible_one_moves() -> None:
     document = edits.update_layer(document, 2, visible=False)
     assert [layer.id for layer in document.moving] == [1, 2, 3]
     assert not edits.update_layer(document, 3, visible=False).moving
+
+
+def test_new_layers_are_told_apart_by_colour_as_long_as_there_are_others() -> None:
+    document = Document()
+    for i in range(len(FILLS) + 1):
+        document = edits.add_layer(document, f"{i}", 1, TRIANGLE)
+    fills = [layer.style.fill for layer in document.layers]
+    assert len(set(fills)) == len(fills) - 1
+    document = edits.update_layer(document, 3, style=Style(fill="#000000"))
+    assert edits.add_layer(document, "x", 1, TRIANGLE).layers[-1].style.fill == fills[2]
 
 
 def test_a_new_layer_lies_on_top_with_an_id_of_its_own() -> None:
