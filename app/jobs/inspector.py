@@ -15,6 +15,7 @@ from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
 from app.jobs.frames import Frames
+from app.jobs.joining import Joining, join
 from app.jobs.looking import Look, Sight, Task, look, make
 from app.jobs.remembered import Remembered
 from app.jobs.solver import Solver, SpanState
@@ -109,7 +110,9 @@ class Inspector(QObject):
         self._searches: dict[TimedSpan, _Search] = {}
         """Those that have begun and not ended."""
         self._outcomes: Remembered[TimedSpan, SpanCheck | MorphError] = Remembered(REMEMBERED)
-        self._job: Task | Instant | None = None
+        self._joined: Joining | None = None
+        """What was joined last to what it hangs on."""
+        self._job: Task | Joining | Instant | None = None
         """Frames that are looked at, or one that is missing on screen."""
         self._worker = Worker("inspector", self)
         self._worker.done.connect(self._on_done)
@@ -186,18 +189,22 @@ class Inspector(QObject):
         waiting = [key for key, found in standings.items() if found is Standing.CHECKING]
         if self._job is None:
             self._begin(waiting)
-        elif isinstance(self._job, Task) and not self._wanted(self._job.span, waiting):
+        elif not self._wanted(self._job, waiting):
             self._worker.cancel()
         if standings != self._standings:
             self._standings = standings
             self.changed.emit()
 
-    def _wanted(self, span: TimedSpan, waiting: list[Key]) -> bool:
-        return not self._solver.busy and any(self._spans[key] == span for key in waiting)
+    def _wanted(self, job: Task | Joining | Instant, waiting: list[Key]) -> bool:
+        if isinstance(job, Task):
+            return not self._solver.busy and any(self._spans[key] == job.span for key in waiting)
+        if isinstance(job, Joining):
+            return self._frames.missing is None and job.same_as(self._hanging())
+        return True
 
     def _look_at_document(self) -> None:
         if self._document is not self._session.document:
-            self._document = self._session.document
+            self._document, self._joined = self._session.document, None
             self._spans = {
                 (layer.id, index): timed_span_of(layer, index)
                 for layer in self._document.layers
@@ -211,9 +218,20 @@ class Inspector(QObject):
         if (missing := self._frames.missing) is not None:
             self._job = missing
             self._worker.start(partial(make, *missing))
-        elif waiting and not self._solver.busy:
+        elif self._solver.busy:
+            return
+        elif (hanging := self._hanging()) is not None and not hanging.same_as(self._joined):
+            self._job = hanging
+            self._worker.start(partial(join, hanging))
+        elif waiting:
             self._job = self._most_urgent(waiting)
             self._worker.start(partial(self._look, self._job))
+
+    def _hanging(self) -> Joining | None:
+        """Return what is to be joined, if anything hangs."""
+        spans = (span.span for span in self._spans.values())
+        solved = self._solver.morph_of
+        return Joining.of(self._session.document, spans, solved, self._playhead.frame)
 
     def _most_urgent(self, waiting: list[Key]) -> Task:
         """Return what to look at next: of the current layer, soon seen."""
@@ -239,11 +257,13 @@ class Inspector(QObject):
         return self._searches[span]
 
     def _on_done(
-        self, _number: int, outcome: Sight | Mapping[float, Array] | MorphError | Cancelled
+        self, _number: int, outcome: Sight | Mapping[float, Array] | MorphError | Cancelled | None
     ) -> None:
         job, self._job = self._job, None
         if isinstance(job, Task):
             self._note(job, outcome)
+        elif isinstance(job, Joining):
+            self._joined = None if isinstance(outcome, Cancelled) else job
         elif job is not None:
             if isinstance(outcome, Mapping):
                 self._frames.keep(job[0], outcome)

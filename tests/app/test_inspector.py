@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.canvas.moment import picture_on_screen
 from app.jobs import looking
 from app.jobs.inspector import PORTION, REMEMBERED, Standing
 from app.jobs.looking import Sight, Task
@@ -25,6 +26,7 @@ from core.model.edits import (
     set_easing,
     update_layer,
 )
+from core.morph.hanging.run import _joint
 from core.morph.scene import Span, solve_span, timed_span_of
 from core.morph.soundness import check_span
 from core.progress import Progress
@@ -319,3 +321,20 @@ def test_a_real_crossing_has_the_verdict_of_the_command_line(
             theirs.crossings,
         )
     assert troubled_frames(found)
+
+
+def test_what_hangs_is_joined_to_its_carrier_before_it_is_seen(
+    open_workspace: Callable[..., Workspace], qtbot: QtBot
+) -> None:
+    card = document(1, 13, 25).layers[0]
+    hat = Layer(2, "hat", (Keyframe(1, SQUARE), Keyframe(19, SQUARE)), carrier=1)
+    still = Layer(3, "pin", (Keyframe(1, SQUARE),), carrier=1)
+    workspace = open_workspace(Document((card, hat, still)))
+    qtbot.waitUntil(stands(workspace, Standing.SOUND, 1), timeout=20_000)
+    qtbot.waitUntil(lambda: not (workspace.inspector.busy or workspace.solver.busy))
+    before = _joint.cache_info()
+    for frame in (5.5, 15.5, 22.5):
+        assert len(picture_on_screen(workspace, frame).shapes) == 3
+    after = _joint.cache_info()
+    assert after.hits > before.hits
+    assert after.misses == before.misses
