@@ -6,7 +6,7 @@ import os
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer, QUrl
+from PySide6.QtCore import QPoint, Qt, QTimer, QUrl
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QWidget
 
@@ -30,7 +30,7 @@ from app.jobs.solver import Solver
 from app.jobs.suggestions import Suggestions
 from app.jobs.worker import strays
 from app.keys import KeyManners
-from app.menus import PANELS, RECENT, TOOLS, TOP_BAR, Actions
+from app.menus import CANVAS_MENU, PANELS, RECENT, TOOLS, TOP_BAR, Actions
 from app.panels.layers import LayersPanel
 from app.panels.messages import MessageBar
 from app.panels.properties import PropertiesPanel
@@ -130,6 +130,7 @@ class MainWindow(QMainWindow):
         ):
             signal.connect(self.actions_.refresh)
         w.session.file_changed.connect(self._show_title)
+        self.canvas.menu_wanted.connect(self._show_canvas_menu)
         self.canvas.hint_changed.connect(self.status.set_hint)
         self.status.set_hint(self.canvas.hint)
         self.status.cancel_asked.connect(self._cancel_solving)
@@ -190,6 +191,9 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{self.files.name}[*] – Betwixt")
         self.setWindowModified(session.dirty)
         self.setWindowFilePath(str(session.path or ""))
+
+    def _show_canvas_menu(self, at: QPoint) -> None:
+        self.actions_.pop_up(CANVAS_MENU, at)
 
     def _cancel_solving(self) -> None:
         self.workspace.solver.cancel()

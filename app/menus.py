@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Union
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QPoint, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar
 
@@ -48,6 +48,10 @@ MENUS: tuple[Menu, ...] = (
 TOP_BAR: Items = (
     *("new", "open", "save", "-", "import", "export", "-", "undo", "redo", "-"),
     *("side-by-side", "overlay", "-", "onion", "mesh", "-", "fit", "flip"),
+)
+CANVAS_MENU: Items = (
+    *("cut", "copy", "paste", "delete", "-", "insert-key", "draw-key", "suggest-marks", "-"),
+    *("zoom-drawing", "fit", "-", "onion", "mesh", "marks"),
 )
 
 
@@ -103,10 +107,20 @@ class Actions(QObject):
             else:
                 bar.addAction(self[str(item)])
 
+    def pop_up(self, items: Items, at: QPoint) -> None:
+        """Show some actions in a menu at a place on the screen; gone once it is closed."""
+        menu = QMenu(self._desk.window)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._add(menu, items)
+        menu.popup(at)
+
     def _fill(self, parent: QMenuBar | QMenu, menu: Menu) -> None:
         title, items = menu
         filled = parent.addMenu(translated(title))
         self.menus[title] = filled
+        self._add(filled, items)
+
+    def _add(self, filled: QMenu, items: Items) -> None:
         for item in items:
             if isinstance(item, tuple):
                 self._fill(filled, item)

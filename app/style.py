@@ -164,8 +164,7 @@ def _sheet(c: Colours) -> str:
     return f"""
     QMainWindow::separator {{ background: {c.line}; width: 3px; height: 3px; }}
     QMainWindow::separator:hover {{ background: {c.accent}; }}
-    QDockWidget {{ font-weight: 600; }}
-    QDockWidget::title {{ background: {c.window}; padding: 6px 8px; }}
+    DockTitle QLabel {{ font-weight: 600; }}
     QToolBar {{ background: {c.window}; border: 0; spacing: 3px; padding: 4px; }}
     QToolBar::separator {{ background: {c.hover}; margin: 6px; width: 1px; height: 1px; }}
     QToolButton {{

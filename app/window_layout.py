@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from PySide6.QtCore import QObject, QSize, Qt
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QToolBar, QWidget
 
+from app.dock_title import DockTitle
 from app.settings import Settings
 
 FIRST_SIZE = QSize(1360, 860)
@@ -33,6 +34,7 @@ class WindowLayout(QObject):
     def add_side_panel(self, name: str, title: str, panel: QWidget) -> None:
         """Add a panel at the right; ``name`` is what the layout is remembered by."""
         self._add(name, title, panel, Qt.DockWidgetArea.RightDockWidgetArea)
+        self.docks[name].setTitleBarWidget(DockTitle(self.docks[name]))
 
     def add_timeline(self, title: str, timeline: QWidget) -> None:
         """Add the timeline over the full width; its transport is title enough."""

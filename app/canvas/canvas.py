@@ -4,8 +4,18 @@ from __future__ import annotations
 
 from functools import partial
 
-from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt, QTimer, QVariantAnimation, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import (
+    QEvent,
+    QPoint,
+    QPointF,
+    QRectF,
+    QSizeF,
+    Qt,
+    QTimer,
+    QVariantAnimation,
+    Signal,
+)
+from PySide6.QtGui import QContextMenuEvent, QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.camera import Camera
@@ -44,6 +54,8 @@ class Canvas(QWidget):
     hint_changed = Signal(str)
     """What the next click does."""
     tool_changed = Signal(str)
+    menu_wanted = Signal(QPoint)
+    """Where on the screen a context menu is asked for."""
     _refresh_wanted = Signal()
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
@@ -324,6 +336,11 @@ class Canvas(QWidget):
             self.hint_changed.emit(self._hint)
 
     # -- Qt ------------------------------------------------------------------------------------
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Ask for a menu, unless a drawing is under way."""
+        if not self._tool.busy:
+            self.menu_wanted.emit(event.globalPos())
 
     def changeEvent(self, event: QEvent) -> None:
         """Follow the theme; drop the hand when the keyboard goes to another window."""

@@ -34,6 +34,7 @@ class NumberField(CalmWheel, QDoubleSpinBox):
             parent, decimals=decimals, minimum=least, maximum=most, singleStep=step, suffix=suffix
         )
         self.setAccessibleName(name)
+        self.setToolTip(name)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumHeight(TARGET_SIZE)
         self.setCorrectionMode(QDoubleSpinBox.CorrectionMode.CorrectToNearestValue)

@@ -18,6 +18,7 @@ class Heading(QAbstractButton):
         font = self.font()
         font.setBold(True)
         self.setFont(font)
+        self.setToolTip(self.tr("Fold away, or unfold"))
 
     def sizeHint(self) -> QSize:
         """Return the height of a target; any width will do."""

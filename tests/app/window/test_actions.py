@@ -9,13 +9,22 @@ import numpy as np
 import pytest
 import shapely
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QKeySequence
+from PySide6.QtGui import QContextMenuEvent, QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLineEdit
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QLineEdit,
+    QMenu,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 import resources
 from app.actions import ENTRIES
+from app.canvas.moment import Role
 from app.icons import pixmap
 from app.main_window import MainWindow
 from app.menus import MENUS, TOP_BAR, Items
@@ -25,6 +34,7 @@ from core.geometry.flatten import flatten
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
 from core.model.edits import move_nodes
 from core.morph.scene import layer_rings
+from tests.app.canvas.conftest import LEFT, Hand
 from tests.app.window.conftest import press
 
 SQUARE = Outline.polygon([(100, 100), (300, 100), (300, 300), (100, 300)])
@@ -333,14 +343,60 @@ def test_draw_keyframe_here_makes_what_is_drawn_a_key_under_the_playhead(
     assert window.workspace.view.layout == "overlay"
 
 
-def test_every_control_has_a_name_and_is_large_enough_to_hit(window: MainWindow) -> None:
-    window.beginning.toggle_welcome()
+@pytest.mark.parametrize("welcome", [False, True])
+def test_every_control_has_a_name_a_tip_and_is_large_enough_to_hit(
+    window: MainWindow, welcome: bool
+) -> None:
+    window.workspace.session.replace(a_document())
+    if welcome:
+        window.beginning.toggle_welcome()
     QApplication.processEvents()
-    for part in (window.welcome, window.status, window.messages):
-        for button in part.findChildren(QAbstractButton):
-            if button.isVisible():
-                assert button.accessibleName() or button.text(), button
-                assert min(button.width(), button.height()) >= 24, button.text()
+    kinds = (QAbstractButton, QAbstractSpinBox, QComboBox)
+    controls = [c for c in window.findChildren(QWidget) if isinstance(c, kinds) and c.isVisible()]
+    assert len(controls) > 40
+    for control in controls:
+        text = control.text() if isinstance(control, QAbstractButton) else ""
+        assert control.accessibleName() or text, control
+        assert control.toolTip() or text, control.accessibleName()
+        assert min(control.width(), control.height()) >= 24, control.accessibleName() or text
+
+
+def test_a_panel_floats_and_closes_and_comes_back_by_its_title_and_the_menu(
+    window: MainWindow,
+) -> None:
+    dock = window.panels.docks["layers"]
+    title = dock.titleBarWidget()
+    for floats in (True, False):
+        QTest.mouseClick(title.float, LEFT)
+        assert dock.isFloating() == floats
+    QTest.mouseClick(title.close_, LEFT)
+    assert dock.isHidden()
+    dock.toggleViewAction().trigger()
+    assert dock.isVisible()
+
+
+def test_a_right_click_on_the_canvas_offers_what_can_be_done_there(
+    window: MainWindow, hand: Hand
+) -> None:
+    window.workspace.session.replace(a_document())
+    viewport = hand.pane(Role.TARGET).view.viewport()
+
+    def ask() -> QMenu | None:
+        at = hand.pixel(Role.TARGET, (200, 200))
+        QTest.mouseClick(viewport, Qt.MouseButton.RightButton, pos=at)
+        there = viewport.mapToGlobal(at)
+        reason = QContextMenuEvent.Reason.Mouse
+        QApplication.sendEvent(viewport, QContextMenuEvent(reason, at, there))
+        return QApplication.activePopupWidget()
+
+    menu = ask()
+    offered = {action.objectName() for action in menu.actions() if action.isEnabled()}
+    assert {"copy", "paste", "delete", "fit"} <= offered
+    menu.close()
+    assert window.workspace.selection.key == 1  # that of the pane that was clicked
+    window.canvas.set_tool("pen")
+    hand.click(Role.TARGET, (100, 100))
+    assert ask() is None  # a drawing is under way
 
 
 def test_samples_come_with_the_program() -> None:
