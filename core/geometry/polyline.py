@@ -38,12 +38,9 @@ def points_at(points: Array, lengths: Array, at: Array) -> Array:
     ``lengths`` is ``arc_lengths(points)``. An arc length that equals a vertex's gives that vertex
     to the last bit.
     """
-    closed = np.vstack([points, points[:1]])
+    closed = np.append(points, points[:1], axis=0)
     at = np.mod(at, lengths[-1])
-    i = np.clip(np.searchsorted(lengths, at, side="right") - 1, 0, len(points) - 1)
-    span = lengths[i + 1] - lengths[i]
-    u = np.divide(at - lengths[i], span, out=np.zeros_like(at), where=span > 0)[:, None]
-    return np.where(u == 0, closed[i], (1 - u) * closed[i] + u * closed[i + 1])
+    return np.column_stack([np.interp(at, lengths, closed[:, k]) for k in (0, 1)])
 
 
 def nearest_length(points: Array, lengths: Array, point: Array) -> tuple[float, float]:
