@@ -112,6 +112,7 @@ class Swatch(QAbstractButton):
         super().__init__(parent)
         self._colour = ""
         self.setFixedSize(TARGET_SIZE, TARGET_SIZE)
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
 
     def sizeHint(self) -> QSize:
         """Return the size of a target."""

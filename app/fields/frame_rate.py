@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QLocale, Qt
-from PySide6.QtGui import QDoubleValidator
 from PySide6.QtWidgets import QComboBox, QWidget
 
 from app.document.session import Session
@@ -27,9 +26,7 @@ class FrameRateField(CalmWheel, QComboBox):
         self.setMinimumHeight(TARGET_SIZE)
         self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.addItems([str(fps) for fps in USUAL])
-        validator = QDoubleValidator(LEAST, MOST, 3, self)
-        validator.setNotation(QDoubleValidator.Notation.StandardNotation)
-        self.setValidator(validator)
+        self.setCompleter(None)  # who types 6 does not mean 60
         self._session = session
         self._shown = 0.0
         self.activated.connect(self._apply)

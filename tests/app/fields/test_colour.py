@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit, QToolButton
+from PySide6.QtWidgets import QColorDialog, QLineEdit, QToolButton
 from pytestqt.qtbot import QtBot
 
 from app.fields.colour import ColourField, Swatch, parse, written
@@ -92,3 +92,13 @@ def test_the_swatch_shows_none_alpha_and_colour_differently(field: ColourField) 
         field.show_value(value)
         seen.add(bytes(swatch.grab().toImage().constBits()))
     assert len(seen) == 4
+
+
+def test_the_picker_opens_from_the_keyboard(field: ColourField) -> None:
+    field.activateWindow()
+    swatch = field.findChild(Swatch)
+    swatch.setFocus(Qt.FocusReason.TabFocusReason)
+    assert swatch.hasFocus()
+    QTest.keyClick(swatch, Qt.Key.Key_Space)
+    assert field.findChild(QColorDialog).isVisible()
+    field.findChild(QColorDialog).reject()
