@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -51,28 +52,35 @@ class CleanOutline:
         """Enclosed area, holes taken off."""
         return sum(signed_area(ring) for ring in self.rings)
 
-    @property
+    @cached_property
     def diagonal(self) -> float:
         """Diagonal of the bounds."""
         return float(np.hypot(*np.ptp(self.rings[0], axis=0)))
+
+    @cached_property
+    def lengths(self) -> tuple[Array, ...]:
+        """The arc lengths (n + 1,) of each ring's vertices, and of the whole."""
+        return tuple(map(arc_lengths, self.rings))
 
     def length_of(self, ring: int, at: float) -> float:
         """Return the arc length on a ring of a place on the given one, counted in its vertices.
 
         A place that was cut off counts as the one where it was cut.
         """
-        origin = self.origins[ring]
-        return float(np.interp(origin.run(at), origin.runs(), self._lengths(ring)))
+        return float(np.interp(self.origins[ring].run(at), *self._runs[ring]))
 
     def vertex_of(self, ring: int, length: float) -> float:
         """Return the place on the given ring, counted in its vertices, of an arc length."""
-        origin, lengths = self.origins[ring], self._lengths(ring)
-        return origin.place(float(np.interp(length % lengths[-1], lengths, origin.runs())))
+        runs, lengths = self._runs[ring]
+        return self.origins[ring].place(float(np.interp(length % lengths[-1], lengths, runs)))
 
-    def _lengths(self, ring: int) -> Array:
-        """Return (2n + 1,) the arc lengths at which vertices arrive and leave, and the whole."""
-        lengths = arc_lengths(self.rings[ring])
-        return np.append(np.repeat(lengths[:-1], 2), lengths[-1])
+    @cached_property
+    def _runs(self) -> tuple[tuple[Array, Array], ...]:
+        """The runs and the arc lengths (2n + 1,) at which each ring's vertices arrive and leave."""
+        return tuple(
+            (origin.runs(), np.append(np.repeat(lengths[:-1], 2), lengths[-1]))
+            for origin, lengths in zip(self.origins, self.lengths, strict=True)
+        )
 
 
 def clean(rings: Sequence[Array], side: str) -> CleanOutline:

@@ -135,8 +135,8 @@ def place_marks(
         ):
             track = tracks(outline)[place.ring]
             length = end.length_of(place.ring, track.vertex_of(place.at))
-            point = track.point_at(place.at) if end.repairs else None
-            if point is not None and _strayed(end, place.ring, length, point):
+            point = track.point_at(place.at)
+            if _strayed(end, place.ring, length, point):
                 raise MarkError(
                     f"Mark {labels[index]} lies on a part of the {side} that had to be cut off.",
                     where=Where(side, point=(float(point[0]), float(point[1])), marks=(index,)),
@@ -158,8 +158,7 @@ def place_marks(
 
 def _strayed(end: CleanOutline, ring: int, length: float, point: Array) -> bool:
     """Whether an arc length lies off the point that it stands for."""
-    points = end.rings[ring]
-    away = points_at(points, arc_lengths(points), np.array([length]))[0] - point
+    away = points_at(end.rings[ring], end.lengths[ring], np.array([length]))[0] - point
     return bool(np.hypot(*away) > OFF_OUTLINE * end.diagonal)
 
 
@@ -192,7 +191,7 @@ def ways(
     exteriors' perimeters over ``density``. ``watch(stage)`` is called between steps and may raise
     ``Cancelled``.
     """
-    here, there = (float(arc_lengths(end.rings[0])[-1]) / density for end in (source, target))
+    here, there = (float(end.lengths[0][-1]) / density for end in (source, target))
     given = any(mark.rings[0] == 0 for mark in marks)
 
     def follow(matching: Callable[[], Matching]) -> Correspondence | None:
