@@ -159,9 +159,15 @@ class View(pg.GraphicsView):
         return QSize(*LEAST_SIZE)
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """Zoom at the cursor."""
-        x, y = self.to_document([event.position().x(), event.position().y()])
-        self._camera.zoom_at(QPointF(x, y), WHEEL_STEP ** event.angleDelta().y())
+        """Zoom at the cursor; sideways, or with Shift, pan."""
+        turn, sideways = event.angleDelta().y(), event.angleDelta().x()
+        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+            turn, sideways = 0, sideways or turn
+        if sideways:
+            self._camera.pan(sideways / 2, 0.0)
+        if turn:
+            x, y = self.to_document([event.position().x(), event.position().y()])
+            self._camera.zoom_at(QPointF(x, y), WHEEL_STEP**turn)
         event.accept()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:

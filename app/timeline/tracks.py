@@ -14,6 +14,7 @@ from PySide6.QtGui import (
     QMouseEvent,
     QPainter,
     QPaintEvent,
+    QWheelEvent,
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
@@ -99,6 +100,14 @@ class Tracks(TimeWidget):
     def leaveEvent(self, event: QEvent) -> None:
         """Forget what the mouse was over."""
         self._hover(None)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Scroll through layers where more are there than fit; with Ctrl, or else, zoom."""
+        hidden = self.visibleRegion().boundingRect().height() < self.height()
+        if hidden and event.angleDelta().y() and not event.modifiers():
+            event.ignore()  # the scroll area around takes it
+        else:
+            super().wheelEvent(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Play the span alone, or everything again if it is already."""

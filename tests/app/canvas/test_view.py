@@ -18,6 +18,7 @@ from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 Key = Qt.Key
 SIDE_BY_SIDE = (SOURCE, BETWEEN, TARGET)
+SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 
 @pytest.fixture
@@ -25,16 +26,23 @@ def hand(open_canvas: Callable[..., Hand]) -> Hand:
     return open_canvas(a_document())
 
 
-def wheel(hand: Hand, role: Role, place: tuple[float, float], notches: int) -> None:
+def wheel(
+    hand: Hand,
+    role: Role,
+    place: tuple[float, float],
+    notches: int,
+    keys: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier,
+    sideways: int = 0,
+) -> None:
     viewport = hand.pane(role).view.viewport()
     at = QPointF(hand.pixel(role, place))
     event = QWheelEvent(
         at,
         viewport.mapToGlobal(at),
         QPoint(),
-        QPoint(0, 120 * notches),
+        QPoint(120 * sideways, 120 * notches),
         Qt.MouseButton.NoButton,
-        Qt.KeyboardModifier.NoModifier,
+        keys,
         Qt.ScrollPhase.NoScrollPhase,
         False,
     )
@@ -74,6 +82,18 @@ def test_the_wheel_zooms_at_the_cursor_in_all_panes(hand: Hand):
     moved = hand.pixel(SOURCE, SQUARE[1]) - before
     assert moved.manhattanLength() <= 2
     assert hand.pane(TARGET).view.pixel == hand.pane(SOURCE).view.pixel
+
+
+@pytest.mark.parametrize("flipped", [False, True])
+def test_the_wheel_pans_sideways_or_with_shift(hand: Hand, flipped: bool):
+    if flipped:
+        hand.canvas.flip()
+    zoom = hand.canvas.camera.zoom
+    for turn in ({"notches": 0, "sideways": 1}, {"notches": 1, "keys": SHIFT}):
+        before = hand.pixel(SOURCE, SQUARE[0])
+        wheel(hand, SOURCE, SQUARE[0], **turn)
+        assert (hand.pixel(SOURCE, SQUARE[0]) - before).toTuple() == (60, 0)
+    assert hand.canvas.camera.zoom == zoom
 
 
 def test_zoom_has_limits(hand: Hand):

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.timeline.timeline import Timeline
 from app.workspace import Workspace
 from core.model import Keyframe
-from core.model.edits import insert_keyframe
+from core.model.edits import duplicate_layer, insert_keyframe
 from tests.app.timeline.conftest import SQUARE, Mouse
 
 LOW = 35.0
@@ -148,6 +148,23 @@ def test_the_wheel_zooms_at_the_cursor(timeline: Timeline) -> None:
     assert abs(after.frame(x) - before.frame(x)) < 1e-9
     wheel(timeline.tracks, x, -120)
     assert abs(timeline.view.scale.pixels - before.pixels) < 1e-9
+
+
+def test_the_wheel_scrolls_through_layers_where_more_are_there_than_fit(
+    timeline: Timeline, workspace: Workspace
+) -> None:
+    for _ in range(4):
+        workspace.session.apply("", duplicate_layer, 1, "copy")
+    workspace.selection.select_layer(2)
+    QApplication.processEvents()
+    before, place = timeline.view.scale, timeline.headers.mapTo(timeline, QPoint())
+    at = timeline.tracks.mapTo(timeline.window(), QPoint(300, 20))
+    QTest.wheelEvent(timeline.windowHandle(), QPointF(at), QPoint(0, -120))
+    QApplication.processEvents()
+    assert timeline.view.scale == before
+    assert timeline.headers.mapTo(timeline, QPoint()).y() < place.y()
+    wheel(timeline.tracks, 300.0, -120, Qt.KeyboardModifier.ControlModifier)
+    assert timeline.view.scale.pixels < before.pixels
 
 
 def test_the_wheel_with_shift_pans(timeline: Timeline) -> None:
