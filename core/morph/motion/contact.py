@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Self
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from core.geometry.crossing import crosses_itself
 from core.geometry.flatness import times_of_flatness
-from core.geometry.rotation import Complex, to_points
+from core.geometry.rotation import Complex, to_points, unit
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
 from core.morph.motion.barrier import LEFT_ALONE, Derivatives
@@ -77,17 +78,40 @@ class Contact:
         return pairs[close][distance[close] < within * self._reach(corners[close])]
 
     def meeting(self, here: Complex, there: Complex) -> Indices:
-        """Return the pairs that may be felt on the way between two frames (n,).
+        """Return the pairs that may be felt on the way between two frames (n,), in order."""
+        return self.meetings([here, there])[0]
+
+    def meetings(self, frames: Sequence[Complex]) -> list[Indices]:
+        """Return the pairs that may be felt on the way from each frame (n,) to the next, in order.
 
         Seen from its edge, a vertex is taken to move about straight.
         """
-        pairs = self._closing(here, there)
-        corners = self.corners(pairs)
-        closing = np.abs(_seen_from_edges(there[corners.T]) - _seen_from_edges(here[corners.T]))
-        apart = _distances(here[corners.T]) + _distances(there[corners.T])
-        least: Array = apart - BOWED * closing.max(axis=0)
-        close = least < 2 * REACH
-        return pairs[close][least[close] < 2 * self._reach(corners[close])]
+        found = [self._closing(here, there) for here, there in pairwise(frames)]
+        sizes, pairs = [len(each) for each in found], np.concatenate(found)
+        way = np.repeat(np.arange(len(found)), sizes)
+        here, there = self._seen_from_edges(np.array(frames), (way, way + 1), pairs)
+        closing = np.abs(there - here).max(axis=0)
+        least = _off_edges(here) + _off_edges(there) - BOWED * closing
+        felt = np.flatnonzero(least < 2 * REACH)
+        felt = felt[least[felt] < 2 * self._reach(self.corners(pairs[felt]))]
+        return np.split(pairs[felt], np.searchsorted(felt, np.cumsum(sizes)[:-1]))
+
+    def _seen_from_edges(
+        self, frames: Complex, moments: Sequence[Indices], pairs: Indices
+    ) -> list[Complex]:
+        """Return (2, c) how vertices lie from both ends of their edges, seen along the edge.
+
+        That is in frames (k, n) at moments (c,), for some of these in turn.
+        """
+        places = frames[:, self._starts]
+        back = np.conj(unit(places[:, self._next] - places)).ravel()
+        vertex, edge = np.divmod(pairs, len(self._starts))
+        corners = np.stack([vertex, edge, self._next[edge]])
+        seen = []
+        for first in (moment * len(self._starts) for moment in moments):
+            point, *ends = places.ravel()[first + corners]
+            seen.append((point - ends) * back[first + edge])
+        return seen
 
     def _close(self, z: Complex, within: float) -> Indices:
         """Return at least the pairs with a gap below ``within``."""
@@ -174,9 +198,9 @@ class NoContact(Contact):
         """Return no pair."""
         return np.empty(0, dtype=int)
 
-    def meeting(self, here: Complex, there: Complex) -> Indices:
-        """Return no pair."""
-        return np.empty(0, dtype=int)
+    def meetings(self, frames: Sequence[Complex]) -> list[Indices]:
+        """Return no pair on any way."""
+        return [np.empty(0, dtype=int) for _ in frames[1:]]
 
     def gaps(self, pairs: Indices, vertices: Indices) -> Distances:
         """Return no gap."""
@@ -238,11 +262,11 @@ def _closest(point: Complex, start: Complex, stop: Complex) -> tuple[Complex, Ar
     return edge, share, offset - share * edge
 
 
-def _seen_from_edges(corners: Complex) -> Complex:
-    """Return (2, c) how points lie from both ends of their edges, seen along the edge."""
-    point, start, stop = corners
-    ahead = (stop - start) / np.maximum(np.abs(stop - start), TINY)
-    return np.stack([point - start, point - stop]) * np.conj(ahead)
+def _off_edges(seen: Complex) -> Array:
+    """Return the distances (c,) of points seen so from their edges."""
+    from_start, from_stop = seen
+    beyond = np.maximum(from_stop.real, -from_start.real).clip(0)
+    return np.hypot(beyond, from_start.imag)
 
 
 def _distances(corners: Complex) -> Array:

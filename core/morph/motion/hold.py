@@ -105,9 +105,9 @@ class Hold:
             return False
         return (among is not None and not len(among)) or not self._contact.crosses(wanted.fitted)
 
-    def meeting(self, here: Complex, there: Complex) -> Indices:
-        """Return the pairs of the boundary that may be felt on the way between frames (n,)."""
-        return self._contact.meeting(here, there)
+    def meetings(self, frames: Sequence[Complex]) -> list[Indices]:
+        """Return the pairs of the boundary that may be felt from each frame (n,) to the next."""
+        return self._contact.meetings(frames)
 
     def _grip(self, tight: Tight) -> Grip:
         corners = self._guard.triangles[tight.triangles], self._contact.corners(tight.pairs)

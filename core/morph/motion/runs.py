@@ -48,9 +48,10 @@ class Discs:
     def within(self, distance: float) -> Pairs:
         """Return at least the pairs of runs with places within a distance."""
         tree = cKDTree(to_points(self.centre))
-        reach = distance + 2 * self.radius.max()
-        found = tree.sparse_distance_matrix(tree, reach, output_type="ndarray")
-        return found["i"], found["j"]
+        found = tree.query_pairs(distance + 2 * self.radius.max(), output_type="ndarray")
+        itself = np.arange(len(self.centre))
+        one, other = found.T
+        return np.concatenate([one, other, itself]), np.concatenate([other, one, itself])
 
     def apart(self, pairs: Pairs) -> Complex:
         """Return how the centres (p,) of the ones lie from the others'."""

@@ -53,6 +53,8 @@ class Anchor:
     """(n,) how far the shape has turned around each vertex."""
     frame: Complex
     """(n,)"""
+    margin: float
+    """The smallest ratio of a triangle's area in the frame to the ideal one."""
     held: bool = False
     """Whether the frame is not the plain fit."""
 
@@ -162,6 +164,7 @@ class SoundFrames:
         each other off must pass one another, which contact would only let them do in a jump.
         """
         plain = [self._plain_anchor(float(t)) for t in np.linspace(0, 1, SURVEY + 1)]
+        self._learn(plain)
         half = SURVEY // 2
         ways = plain[: half + 1], plain[: half - 1 : -1]
         first, last = (self._walk(way, watch) for way in ways)
@@ -183,7 +186,11 @@ class SoundFrames:
 
     def _plain_anchor(self, t: float) -> Anchor:
         wanted = Wanted(to_complex(self._fitted(t)), determinant(self._ideal(t)))
-        return Anchor(t, wanted, phasor(t * self._turning), wanted.fitted)
+        turned, frame = phasor(t * self._turning), wanted.fitted
+        return Anchor(t, wanted, turned, frame, self._hold.margin(frame, wanted))
+
+    def _held_anchor(self, plain: Anchor, frame: Complex) -> Anchor:
+        return replace(plain, frame=frame, margin=self._hold.margin(frame, plain.wanted), held=True)
 
     def _walked(self, last: Sequence[Anchor], plain: Anchor) -> Anchor:
         """Return an anchor, settled from earlier ones."""
@@ -194,7 +201,7 @@ class SoundFrames:
                 halfway = self._plain_anchor((latest.t + plain.t) / 2)
                 return self._walked([latest, self._walked(last, halfway)], plain)
             start = aligned(latest.frame, wanted.fitted)
-        return replace(plain, frame=self._hold(wanted, start), held=True)
+        return self._held_anchor(plain, self._hold(wanted, start))
 
     def _lay(self, anchors: Sequence[Anchor]) -> None:
         """Carry departures from anchor to anchor."""
@@ -210,11 +217,16 @@ class SoundFrames:
     def _stretch(self, ends: Ends) -> Stretch | None:
         """Return the stretch between two anchors, or None where no frame can need to be settled."""
         if ends not in self._known:
-            frames = [(end.frame, end.wanted) for end in ends]
-            pairs = self._hold.meeting(*(frame for frame, _ in frames))
-            quiet = not len(pairs) and min(self._hold.margin(*each) for each in frames) > WATCHED
-            self._known[ends] = None if quiet else Stretch(ends, self._hold.leaving(frames), pairs)
+            self._learn(ends)
         return self._known[ends]
+
+    def _learn(self, anchors: Sequence[Anchor]) -> None:
+        """Find all stretches between anchors that follow each other."""
+        meetings = self._hold.meetings([anchor.frame for anchor in anchors])
+        for ends, pairs in zip(pairwise(anchors), meetings, strict=True):
+            quiet = not len(pairs) and min(end.margin for end in ends) > WATCHED
+            frames = [(end.frame, end.wanted) for end in ends]
+            self._known[ends] = None if quiet else Stretch(ends, self._hold.leaving(frames), pairs)
 
     def _missing(self, anchors: Sequence[Anchor], watch: Watch) -> list[Anchor]:
         """Return anchors in the middle of stretches where what is carried must be settled."""
@@ -225,7 +237,7 @@ class SoundFrames:
             if trouble is not None:
                 watch("in-between")
                 frame = self._settled(t, *trouble)
-                found.append(replace(self._plain_anchor(t), frame=frame, held=True))
+                found.append(self._held_anchor(self._plain_anchor(t), frame))
         return found
 
 
