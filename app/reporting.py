@@ -254,7 +254,7 @@ class Reporter(QObject):
             self._canvas.set_tool("marks")
         elif isinstance(error, OutlineError | Repair):
             self._canvas.set_tool("nodes")
-        self._canvas.fit()
+        self._canvas.framing.fit()
         self._canvas.show_error(error)
 
     def _save_as(self) -> None:

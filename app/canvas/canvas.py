@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from PySide6.QtCore import (
     QEvent,
     QPoint,
-    QPointF,
-    QRectF,
-    QSizeF,
     Qt,
     QTimer,
     QVariantAnimation,
     Signal,
 )
-from PySide6.QtGui import QContextMenuEvent, QKeyEvent
+from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.camera import Camera
-from app.canvas.hand import HAND_KEYS, Hand
+from app.canvas.framing import Framing
+from app.canvas.keyboard import Keyboard
 from app.canvas.moment import Moment, Role, keys_in_view, moment_of, nearest_in_view
 from app.canvas.pane import Pane
 from app.canvas.panes import Panes
@@ -29,8 +25,7 @@ from app.canvas.tools.marks import MarksTool
 from app.canvas.tools.nodes import NodesTool
 from app.canvas.tools.pen import PenTool
 from app.canvas.tools.select import SelectTool
-from app.canvas.tools.tool import ARROWS, Command, Tool
-from app.canvas.tools.transform_box import TransformBox
+from app.canvas.tools.tool import Tool
 from app.workspace import Workspace
 from core.errors import Trouble
 
@@ -39,13 +34,6 @@ TOOLS: tuple[type[Tool], ...] = (SelectTool, NodesTool, PenTool, FreehandTool, M
 PULSES, PULSE_MS = 3, 600
 PATIENCE_MS = 250
 """How long a stale in-between is shown as if it were up to date."""
-ZOOM_KEYS = {Qt.Key.Key_Plus: 1.25, Qt.Key.Key_Equal: 1.25, Qt.Key.Key_Minus: 0.8}
-SIGN_KEYS = (
-    Qt.KeyboardModifier.ControlModifier
-    | Qt.KeyboardModifier.ShiftModifier
-    | Qt.KeyboardModifier.KeypadModifier
-)
-"""What may be held to type a plus on some keyboard."""
 
 
 class Canvas(QWidget):
@@ -69,7 +57,8 @@ class Canvas(QWidget):
         self._tool = self._tools[SelectTool.name]
         self.panes = {role: Pane(role, workspace, self.camera, self) for role in Role}
         self._arranged = Panes(self.panes, self)
-        self._hand = Hand(self.camera, [pane.view for pane in self.panes.values()])
+        self.framing = Framing(self.camera, workspace.session, self._arranged)
+        self._keyboard = Keyboard(self, workspace.playhead)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self._arranged)
@@ -100,6 +89,20 @@ class Canvas(QWidget):
         """What the next click does."""
         return self._hint
 
+    @property
+    def in_hand(self) -> Tool:
+        """The tool in hand."""
+        return self._tool
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the tool in hand is the one that others are put away for."""
+        return self.tool == SelectTool.name
+
+    def put_tool_away(self) -> None:
+        """Take the tool that others are put away for."""
+        self.set_tool(SelectTool.name)
+
     def set_tool(self, name: str) -> None:
         """Take a tool: "select", "nodes", "pen", "freehand" or "marks"."""
         if name == self.tool:
@@ -109,41 +112,6 @@ class Canvas(QWidget):
         self._workspace.suggestions.set_placing(name == MarksTool.name)
         self.tool_changed.emit(name)
         self._after_tool()
-
-    # -- the view ------------------------------------------------------------------------------
-
-    def fit(self) -> None:
-        """Show the whole artboard in each pane, and all that was drawn beyond it."""
-        board = QRectF(0, 0, *self._workspace.session.document.size)
-        self.camera.fit(board.united(self._drawn()), self._room())
-
-    def zoom_to_drawing(self) -> None:
-        """Show everything that was drawn as large as each pane allows."""
-        drawn = self._drawn()
-        if not drawn.isEmpty():
-            self.camera.show(drawn, self._room())
-
-    def _drawn(self) -> QRectF:
-        """Return what all keyframes of all layers cover."""
-        bounds = QRectF()
-        for layer in self._workspace.session.document.layers:
-            for keyframe in layer.keyframes:
-                box = TransformBox.around(keyframe.outline)
-                bounds = bounds.united(QRectF(QPointF(*box.low), QPointF(*box.high)))
-        return bounds
-
-    def _room(self) -> QSizeF:
-        """Return the pixels that every pane on screen has."""
-        sizes = [pane.view.size() for pane in self._shown_panes()]
-        return QSizeF(min(s.width() for s in sizes), min(s.height() for s in sizes))
-
-    def zoom_100(self) -> None:
-        """Show one document unit as one pixel."""
-        self.camera.zoom_to(self.camera.centre, 1.0)
-
-    def flip(self) -> None:
-        """Mirror the view."""
-        self.camera.flip()
 
     # -- errors --------------------------------------------------------------------------------
 
@@ -185,9 +153,8 @@ class Canvas(QWidget):
         layer, playhead = self._workspace.selection.layer, self._workspace.playhead
         if layer is None or playhead.playing:
             return
-        focused = [pane.key for pane in self._focused_panes() if pane.key is not None]
-        if focused:
-            self._workspace.selection.select_key(layer.id, focused[0])
+        if self.focused_key is not None:
+            self._workspace.selection.select_key(layer.id, self.focused_key)
         elif self._workspace.selection.key not in keys_in_view(layer, playhead.frame):
             key = nearest_in_view(layer, playhead.frame)
             self._workspace.selection.select_key(layer.id, key)
@@ -217,7 +184,7 @@ class Canvas(QWidget):
     def _on_replaced(self) -> None:
         self._tool.abandon()
         self._error = None
-        self.fit()
+        self.framing.fit()
 
     def _on_pulse(self, pulse: float) -> None:
         for pane in self._shown_panes():
@@ -228,6 +195,12 @@ class Canvas(QWidget):
 
     def _shown_roles(self) -> tuple[Role, ...]:
         return (Role.OVERLAY,) if self._workspace.view.layout == "overlay" else SIDE_BY_SIDE
+
+    @property
+    def focused_key(self) -> int | None:
+        """Index of the keyframe in the pane that has the focus, if there is one."""
+        focused = (pane.key for pane in self._shown_panes() if pane.view.hasFocus())
+        return next(focused, None)
 
     def _show_layout(self) -> None:
         roles = self._shown_roles()
@@ -246,11 +219,6 @@ class Canvas(QWidget):
         self._show_layout()
         if focused:
             self.setFocus()
-
-    def _on_resized(self) -> None:
-        """Fit again, as long as the artist has neither zoomed nor panned."""
-        if self.camera.fitted:
-            self.fit()
 
     # -- events of the views -------------------------------------------------------------------
 
@@ -273,49 +241,6 @@ class Canvas(QWidget):
     def _on_left(self) -> None:
         self._tool.leave()
         self._after_tool()
-
-    def _on_key_wanted(self, event: QKeyEvent) -> None:
-        if self._command(event) is not None:
-            event.accept()
-
-    def _on_key_pressed(self, event: QKeyEvent) -> None:
-        command = self._command(event)
-        if command is not None:
-            event.accept()
-            command()
-            self._after_tool()
-
-    def _on_key_released(self, event: QKeyEvent) -> None:
-        if event.isAutoRepeat():
-            return
-        if self._hand.held and event.key() in HAND_KEYS:
-            event.accept()
-            if self._hand.let_go() and event.key() == Qt.Key.Key_Space:
-                self._workspace.playhead.toggle()
-        self._tool.key_released()
-
-    def _command(self, event: QKeyEvent) -> Command | None:
-        """Return what a key does on the canvas now, before any shortcut of the window."""
-        key, modifiers = event.key(), event.modifiers()
-        plain = not modifiers
-        if plain and key in HAND_KEYS:
-            return self._hand.take
-        if key in ZOOM_KEYS and not modifiers & ~SIGN_KEYS:
-            return partial(self.camera.zoom_at, self.camera.centre, ZOOM_KEYS[key])
-        if plain and key == Qt.Key.Key_Escape:
-            if self._tool.busy:
-                return self._tool.abandon
-            if self.tool != SelectTool.name and not self._workspace.playhead.playing:
-                return self._put_tool_away
-        if key in ARROWS and not any(pane.key is not None for pane in self._focused_panes()):
-            return None  # in the in-between there is nothing to nudge, and time to step through
-        return self._tool.key(key, modifiers)
-
-    def _focused_panes(self) -> list[Pane]:
-        return [pane for pane in self._shown_panes() if pane.view.hasFocus()]
-
-    def _put_tool_away(self) -> None:
-        self.set_tool(SelectTool.name)
 
     def _on_focus_changed(self) -> None:
         """Make the key of the pane that is worked in the selected one, for the keys to act on."""
@@ -348,7 +273,7 @@ class Canvas(QWidget):
         if event.type() == QEvent.Type.PaletteChange:
             self._refresh_soon()
         elif event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
-            self._hand.let_go()
+            self._keyboard.drop_hand()
 
     def _listen(self) -> None:
         w = self._workspace
@@ -362,6 +287,7 @@ class Canvas(QWidget):
             w.frames.came,
         ):
             signal.connect(self._refresh_soon)
+        self._keyboard.used.connect(self._after_tool)
         w.playhead.moved.connect(self._on_playhead_moved)
         w.session.replaced.connect(self._on_replaced)
         w.view.changed.connect(self._on_view_changed)
@@ -372,8 +298,5 @@ class Canvas(QWidget):
             view.released.connect(self._on_released)
             view.double_clicked.connect(self._on_double_clicked)
             view.left.connect(self._on_left)
-            view.key_wanted.connect(self._on_key_wanted)
-            view.key_pressed.connect(self._on_key_pressed)
-            view.key_released.connect(self._on_key_released)
             view.focus_changed.connect(self._on_focus_changed)
-            view.resized.connect(self._on_resized)
+            view.resized.connect(self.framing.fit_again)

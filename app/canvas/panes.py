@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSizeF, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QWidget
 
@@ -75,6 +75,12 @@ class Panes(PaneSplitter):
     def stacked(self) -> bool:
         """Whether the target is under the source."""
         return self._keys.count() > 1
+
+    @property
+    def room(self) -> QSizeF:
+        """The pixels that every pane on screen has."""
+        sizes = [pane.view.size() for pane in self._panes.values() if not pane.isHidden()]
+        return QSizeF(min(s.width() for s in sizes), min(s.height() for s in sizes))
 
     def show_panes(self, roles: Collection[Role]) -> None:
         """Show just these panes."""

@@ -145,6 +145,7 @@ def test_the_hint_says_how_to_correct_a_mate(hand: Hand):
 
 
 def test_hovering_changes_nothing_but_the_hint(hand: Hand):
+    hand.workspace.view.update(suggestions="never")
     before, hints = hand.document, []
     hand.canvas.hint_changed.connect(hints.append)
     hand.move(SOURCE, (450, 150))
@@ -174,6 +175,7 @@ def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
 
 def test_hovering_shows_the_mate_once_it_is_found(gate, open_canvas, qtbot: QtBot):
     hand = open_canvas(a_document())
+    hand.workspace.view.update(suggestions="never")
     hand.canvas.set_tool("marks")
     hints: list[str] = []
     hand.canvas.hint_changed.connect(hints.append)

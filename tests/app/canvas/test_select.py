@@ -155,7 +155,7 @@ def test_in_between_shapes_are_not_dragged(hand: Hand):
 
 
 def test_the_mirrored_view_does_not_mirror_edits(hand: Hand):
-    hand.canvas.flip()
+    hand.canvas.camera.flip()
     hand.drag(SOURCE, INSIDE, (500, 300))
     assert hand.points()[0] == pytest.approx((350, 150), abs=2)
 

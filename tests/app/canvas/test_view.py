@@ -52,7 +52,7 @@ def wheel(
 @pytest.mark.parametrize("flipped", [False, True])
 def test_pixels_and_document_points_map_back_and_forth(hand: Hand, flipped: bool):
     if flipped:
-        hand.canvas.flip()
+        hand.canvas.camera.flip()
     for role in SIDE_BY_SIDE:
         view = hand.pane(role).view
         np.testing.assert_allclose(view.to_document(view.to_screen(SQUARE)), SQUARE)
@@ -64,7 +64,7 @@ def test_pixels_and_document_points_map_back_and_forth(hand: Hand, flipped: bool
 @pytest.mark.parametrize("flipped", [False, True])
 def test_artwork_is_painted_where_the_mouse_finds_it(hand: Hand, flipped: bool):
     if flipped:
-        hand.canvas.flip()
+        hand.canvas.camera.flip()
     hand.canvas.camera.zoom_at(QPointF(333, 222), 1.7)
     for role in SIDE_BY_SIDE:
         pane = hand.pane(role)
@@ -87,7 +87,7 @@ def test_the_wheel_zooms_at_the_cursor_in_all_panes(hand: Hand):
 @pytest.mark.parametrize("flipped", [False, True])
 def test_the_wheel_pans_sideways_or_with_shift(hand: Hand, flipped: bool):
     if flipped:
-        hand.canvas.flip()
+        hand.canvas.camera.flip()
     zoom = hand.canvas.camera.zoom
     for turn in ({"notches": 0, "sideways": 1}, {"notches": 1, "keys": SHIFT}):
         before = hand.pixel(SOURCE, SQUARE[0])
@@ -105,7 +105,7 @@ def test_zoom_has_limits(hand: Hand):
 @pytest.mark.parametrize("flipped", [False, True])
 def test_a_middle_drag_moves_the_picture_with_the_mouse(hand: Hand, flipped: bool):
     if flipped:
-        hand.canvas.flip()
+        hand.canvas.camera.flip()
     view = hand.pane(SOURCE).view
     place = view.to_document([100, 100])
     QTest.mousePress(view.viewport(), Qt.MouseButton.MiddleButton, pos=QPoint(100, 100))
@@ -141,7 +141,7 @@ def test_a_tap_of_space_plays_and_stops(hand: Hand):
 
 def test_fit_shows_every_keyframe_in_every_pane(hand: Hand):
     hand.canvas.camera.pan(3000, -2000)
-    hand.canvas.fit()
+    hand.canvas.framing.fit()
     for role in SIDE_BY_SIDE:
         view = hand.pane(role).view
         size = view.viewport().size()
@@ -155,7 +155,7 @@ def test_fit_shows_the_whole_artboard_in_every_pane(hand: Hand):
     for layout in ("side by side", "overlay"):
         hand.workspace.view.update(layout=layout)
         QApplication.processEvents()
-        hand.canvas.fit()
+        hand.canvas.framing.fit()
         for pane in hand.canvas.panes.values():
             if pane.isVisible():
                 size = pane.view.viewport().size()
@@ -165,9 +165,9 @@ def test_fit_shows_the_whole_artboard_in_every_pane(hand: Hand):
 
 
 def test_the_drawing_can_be_seen_larger_than_the_artboard_allows(hand: Hand):
-    hand.canvas.fit()
+    hand.canvas.framing.fit()
     whole = hand.canvas.camera.zoom
-    hand.canvas.zoom_to_drawing()
+    hand.canvas.framing.show_drawing()
     assert hand.canvas.camera.zoom > 1.2 * whole
     drawn = np.vstack([hand.points(0), hand.points(1)])
     assert (hand.pane(SOURCE).view.to_screen(drawn) >= 0).all()
@@ -175,13 +175,13 @@ def test_the_drawing_can_be_seen_larger_than_the_artboard_allows(hand: Hand):
 
 def test_fit_shows_the_artboard_when_nothing_is_drawn(open_canvas):
     hand = open_canvas(Document(size=(400, 300)))
-    hand.canvas.fit()
+    hand.canvas.framing.fit()
     centre = hand.canvas.camera.centre
     assert (centre.x(), centre.y()) == (200, 150)
 
 
 def test_100_percent_is_one_pixel_for_one_unit(hand: Hand):
-    hand.canvas.zoom_100()
+    hand.canvas.framing.show_pixels()
     assert hand.pane(SOURCE).view.pixel == 1.0
 
 
@@ -198,8 +198,8 @@ def test_the_view_fits_again_on_resizing_until_the_artist_zooms(hand: Hand, qtbo
 
 def test_the_view_is_not_part_of_the_document(hand: Hand):
     before = hand.document
-    hand.canvas.flip()
-    hand.canvas.zoom_100()
+    hand.canvas.camera.flip()
+    hand.canvas.framing.show_pixels()
     hand.workspace.view.update(layout="overlay", mesh=True, onion=False)
     assert hand.document is before
 
