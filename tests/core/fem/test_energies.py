@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 
 from core.fem.elements import Elements
 from core.fem.energies import (
+    Dirichlet,
     Fairness,
     FoldoverFree,
     InverseDirichlet,
@@ -14,6 +15,7 @@ from core.fem.energies import (
 from core.fem.newton import energy
 
 DENSITIES = [
+    Dirichlet(),
     StVenantKirchhoff(1.3, 0.7),
     SymmetricDirichlet(),
     InverseDirichlet(),

@@ -6,6 +6,7 @@ import pytest
 import core
 from core.fem.elements import Elements
 from core.geometry.crossing import crosses_itself
+from core.model import Outline, Recipe, RingPoint
 from core.morph.pipeline import solve_outlines
 from tests.core.shapes import comb, ellipse, letter_l, limb, rotation, square_ring
 
@@ -154,6 +155,18 @@ def test_the_history_of_energy_and_folds_is_kept():
 def test_repairs_are_reported():
     (repair,) = core.solve(np.repeat(ellipse(), 2, axis=0), letter_l()).report.repairs
     assert str(repair) == "The source outline has 40 repeated points: left out."
+
+
+def test_a_mark_that_has_moved_leaves_no_trace_of_where_it_was():
+    def solved(ends, at):
+        marks = [(RingPoint(0, 3.0), RingPoint(0, at)), (RingPoint(0, 20.0), RingPoint(0, 20.0))]
+        return solve_outlines(*ends, marks, recipe=Recipe(density=40))
+
+    ends, fresh = ([Outline.polygon(limb(bend)) for bend in (0.0, 1.2)] for _ in "ab")
+    solved(ends, 3.0)
+    moved, anew = solved(ends, 3.6), solved(fresh, 3.6)
+    for t in (0.0, 0.4, 1.0):
+        assert np.array_equal(moved.at(t), anew.at(t))
 
 
 def test_a_comb_against_a_square_keeps_both_outlines():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from core.errors import SolveError
 from core.model import Recipe
 from core.model.outline import Array
 from core.morph import rivals
@@ -52,6 +53,30 @@ def test_only_the_rival_that_is_taken_is_mapped_with_all_its_vertices(
     good = comb(3, COUNT)
     chosen(np.roll(good, COUNT // 7, axis=0), good)
     assert sizes == [SKETCH, SKETCH, COUNT]
+
+
+def test_a_way_that_cannot_be_the_best_is_not_followed() -> None:
+    source = comb(3, 40)
+    followed = []
+
+    def way(misfit: float) -> Way:
+        def follow() -> Correspondence:
+            followed.append(misfit)
+            return Correspondence(Matching(()), [BoundaryPair(source, source)], (0.1, 0.1), ())
+
+        return Way(misfit, follow)
+
+    assert choose([way(0.0), way(0.1)], FRAMES, Recipe(), unwatched).tried == 1
+    assert followed == [0.0]
+
+
+def test_ways_that_contradict_themselves_are_passed_over() -> None:
+    source = comb(3, 40)
+    sound = Correspondence(Matching(()), [BoundaryPair(source, source)], (0.1, 0.1), ())
+    ways = [Way(0.0, lambda: None), Way(0.1, lambda: sound)]
+    assert choose(ways, FRAMES, Recipe(), unwatched).taken is sound
+    with pytest.raises(SolveError):
+        choose(ways[:1], FRAMES, Recipe(), unwatched)
 
 
 def test_a_sketch_that_would_cross_itself_is_not_used() -> None:
