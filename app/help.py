@@ -17,7 +17,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.actions import ENTRIES, Entry, translated
+from app.actions import ENTRIES
+from app.entries import Entry, translated
 from app.icons import pixmap
 from app.menus import MENUS, Items
 from app.style import colours

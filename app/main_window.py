@@ -11,7 +11,6 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplicat
 from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QWidget
 
 import resources
-from app.actions import Desk
 from app.beginning import Beginning
 from app.canvas.canvas import Canvas
 from app.clipboard import Clipboard
@@ -20,6 +19,7 @@ from app.document.autosave import Autosave
 from app.document.playhead import Playhead
 from app.document.selection import Selection
 from app.document.session import Session
+from app.entries import Desk
 from app.files.files import Files
 from app.files.recent_menu import RecentMenu
 from app.help import show_about, show_shortcuts

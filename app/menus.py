@@ -8,7 +8,8 @@ from PySide6.QtCore import QObject, QPoint, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar
 
-from app.actions import ENTRIES, Desk, Entry, translated
+from app.actions import ENTRIES
+from app.entries import Desk, Entry, translated
 from app.icons import set_icon
 from app.workspace import SUGGESTIONS
 from core.errors import MorphError

@@ -10,6 +10,7 @@ import numpy as np
 from core.errors import EditError
 from core.geometry.flatten import flatten
 from core.geometry.places import nearest_place, tracks
+from core.geometry.polyline import points_at
 from core.model import Document, Keyframe, Outline, Ring, RingPoint, edits
 from core.model.outline import Array
 from core.morph.suggest import mate
@@ -80,6 +81,15 @@ def slide_mark(document: Document, layer_id: int, key: int, mark: int, length: f
     track = tracks(keyframe.outline)[place.ring]
     at = track.place_of(track.length_of(place.at) + length)
     return edits.move_mark(document, layer_id, key, mark, RingPoint(place.ring, at))
+
+
+def length_along(outline: Outline, place: RingPoint, step: Array) -> float:
+    """Return how far along the outline an arrow's step (2,) goes: forward is positive."""
+    track = tracks(outline)[place.ring]
+    length, size = track.length_of(place.at), float(np.hypot(*step))
+    around = np.array([length - size, length + size])
+    behind, ahead = points_at(track.polyline.points, track.lengths, around)
+    return size if (ahead - behind) @ step >= 0 else -size
 
 
 def redraw_key(document: Document, layer_id: int, key: int, outline: Outline) -> Document:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -18,14 +16,12 @@ from app.canvas.pins import pins_on_key
 from app.canvas.pointer import REACH, Pointer
 from app.canvas.suggestions_overlay import suggestion_at
 from app.canvas.tools import edits as composed
+from app.canvas.tools.mark_drags import DragMark, added_mark, moved_mark
 from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
-from app.document.selection import Selection
-from app.document.session import Session
 from app.style import colours
 from app.workspace import Workspace
-from core.geometry.places import nearest_place, tracks
-from core.geometry.polyline import points_at
-from core.model import Document, Layer, Outline, RingPoint, edits
+from core.geometry.places import nearest_place
+from core.model import Layer, Outline, RingPoint, edits
 from core.model.outline import Array
 from core.morph.layer_match import Suggestion
 from core.morph.suggest import snap
@@ -35,32 +31,6 @@ if TYPE_CHECKING:
 
 NEAR = 3.0
 """A click places a mark within this many times the reach of the outline."""
-
-
-@dataclass
-class DragMark:
-    """A drag of a mark along an outline; it snaps to corners unless Shift is held."""
-
-    session: Session
-    selection: Selection
-    text: str
-    mark: int
-    outline: Outline
-    offset: Array
-    """From the mouse to the marked place, at the press."""
-    put: Callable[[Document, RingPoint], Document]
-    """The edit that puts the mark at a place."""
-
-    def move(self, pointer: Pointer) -> None:
-        """Put the mark where the mouse points."""
-        place, _ = nearest_place(self.outline, pointer.position + self.offset)
-        if not pointer.shift:
-            place = snap(self.outline, place, pointer.reach)
-        self.session.apply(self.text, self.put, place)
-        self.selection.select_mark(self.mark)
-
-    def end(self, pointer: Pointer) -> None:
-        """Nothing is left to do."""
 
 
 class MarksTool(Tool):
@@ -116,13 +86,13 @@ class MarksTool(Tool):
             self.selection.select_mark(self._mark)
             mark, place = self._mark, keyframe.marks[self._mark]
             text = self.tr("Move mark {letter}").format(letter=layer.labels[mark])
-            put = partial(_moved, layer.id, key, mark)
+            put = partial(moved_mark, layer.id, key, mark)
         elif self._suggestion is not None:
             key = self._suggested_key
             mark, place = len(layer.labels), self._suggestion.places[key]
             outline = layer.keyframes[key].outline
             text = self.tr("Place mark {letter}").format(letter=layer.next_label)
-            put = partial(_added, layer.id, key, self._suggestion)
+            put = partial(added_mark, layer.id, key, self._suggestion)
         else:
             return None
         offset = outline.position(place) - pointer.position
@@ -318,7 +288,7 @@ class MarksTool(Tool):
         """Move a mark along the outline, the way round that goes with the arrow."""
         key = self.selection.key
         keyframe = layer.keyframes[key]
-        along = _along(keyframe.outline, keyframe.marks[mark], step)
+        along = composed.length_along(keyframe.outline, keyframe.marks[mark], step)
         text = self.tr("Move mark {letter}").format(letter=layer.labels[mark])
         self.session.amend(self.held, text, composed.slide_mark, layer.id, key, mark, along)
 
@@ -348,24 +318,3 @@ class MarksTool(Tool):
         text = self.tr("Delete mark {letter}").format(letter=layer.labels[mark])
         self._mark = None
         self.session.apply(text, edits.remove_marks, layer.id, [mark])
-
-
-def _moved(layer_id: int, key: int, mark: int, document: Document, place: RingPoint) -> Document:
-    return edits.move_mark(document, layer_id, key, mark, place)
-
-
-def _added(
-    layer_id: int, key: int, suggestion: Suggestion, document: Document, place: RingPoint
-) -> Document:
-    """Add a suggested mark, but on one keyframe at another place."""
-    places = (*suggestion.places[:key], place, *suggestion.places[key + 1 :])
-    return edits.add_mark(document, layer_id, places)
-
-
-def _along(outline: Outline, place: RingPoint, step: Array) -> float:
-    """Return how far along the outline an arrow's step (2,) goes: forward is positive."""
-    track = tracks(outline)[place.ring]
-    length, size = track.length_of(place.at), float(np.hypot(*step))
-    around = np.array([length - size, length + size])
-    behind, ahead = points_at(track.polyline.points, track.lengths, around)
-    return size if (ahead - behind) @ step >= 0 else -size
