@@ -43,7 +43,7 @@ def strip(sample: Path) -> QImage:
 
 
 def window(sample: Path, folder: str) -> QImage:
-    """Return the editor, open on a sample with everything solved."""
+    """Return the editor, open on a sample with everything solved and looked at."""
     from PySide6.QtCore import QSettings
     from PySide6.QtWidgets import QApplication
 
@@ -65,6 +65,8 @@ def window(sample: Path, folder: str) -> QImage:
         QApplication.processEvents()
     space.selection.select_layer(layers[-1].id)
     for _ in range(50):
+        QApplication.processEvents()
+    while space.inspector.busy:
         QApplication.processEvents()
     image = main.grab().toImage()
     main.close()
