@@ -11,7 +11,6 @@ from app.entries import (
     Desk,
     Entry,
     easing_choice,
-    has_deletable,
     has_layer,
     has_mark,
     has_marks,
@@ -83,7 +82,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("cut", "Cut &keyframe", lambda d: d.clipboard.cut(), ("Ctrl+X",), when=has_span),
     Entry("copy", "&Copy keyframe", lambda d: d.clipboard.copy(), ("Ctrl+C",), when=has_layer),
     Entry("paste", "&Paste here", lambda d: d.clipboard.paste(), ("Ctrl+V",)),
-    Entry("delete", "&Delete", lambda d: d.commands.delete(), ("Del",), "delete", has_deletable),
+    Entry("delete", "&Delete", lambda d: d.commands.delete(), ("Del",), "delete", has_layer),
     Entry("select-all", "Select &all nodes", lambda d: d.commands.select_all_nodes(),
           ("Ctrl+A",), when=has_layer),
 

@@ -103,11 +103,6 @@ def has_suggestions(d: Desk) -> bool:
     return bool(d.suggestions.shown)
 
 
-def has_deletable(d: Desk) -> bool:
-    """Whether there is something to delete."""
-    return bool(d.selection.nodes) or has_mark(d) or has_span(d)
-
-
 def has_undo(d: Desk) -> bool:
     """Whether there is a step to take back."""
     return d.session.undo_stack.canUndo() or d.session.dragging

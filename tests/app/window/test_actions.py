@@ -321,6 +321,15 @@ def test_view_options_switch_and_are_remembered(window: MainWindow, open_window:
     assert again.actions_["mesh"].isChecked()
 
 
+def test_deleting_the_only_key_of_a_layer_says_what_to_delete_instead(window: MainWindow) -> None:
+    session = window.workspace.session
+    session.replace(Document((Layer(1, "arm", (Keyframe(1, SQUARE),)),)))
+    before = session.document
+    press(window, "Del")
+    assert session.document is before
+    assert "Delete the layer instead" in window.messages.text
+
+
 def test_the_onion_skin_is_remembered_and_damage_to_that_is_mended(
     window: MainWindow, open_window: object
 ) -> None:
