@@ -26,6 +26,8 @@ STEEP = 5.0
 """How much longer than its neighbour an edge may be."""
 MOST_SPLITS = 64
 """Each quarters longer edges, and shifts the excess to the next: more than any outline takes."""
+SAME = 1e-9
+"""Places closer than this fraction of the perimeter are one vertex."""
 COINCIDENT = 1e-7
 """Marks closer than this fraction of the perimeter lie on top of each other."""
 
@@ -193,7 +195,8 @@ def _pointed(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Ar
         image, back = np.interp(at, here, there), np.interp(other.vertices, there, here)
         away = np.column_stack([back - at, other.vertices - image])[:, way]
         after = np.searchsorted(here, at)
-        near = (there[after - 1] < other.vertices) & (other.vertices < there[after])
+        inside = there[after - 1 : after + 1] + SAME * there[-1] * np.array([1, -1])
+        near = (inside[0] < other.vertices) & (other.vertices < inside[1])
         near &= (np.abs(away) <= reach).all(axis=1)
         left = np.minimum(np.minimum(angle, other.angles), (np.pi - other.angles) / 2)
         best = np.lexsort((other.angles, -np.where(near, left, 0)))[0]
@@ -261,7 +264,7 @@ def _union(anchors: Array, source: _Curve, target: _Curve) -> Array:
     merged = merged[np.lexsort((merged[:, 1], merged[:, 0]))]
     size = np.array([source.perimeter, target.perimeter])
     step = np.diff(merged, axis=0) / size
-    keep = np.append(True, (step > 1e-9).all(axis=1))
+    keep = np.append(True, (step > SAME).all(axis=1))
     # what is left out is a repeat of its neighbour, unless it is a drawn vertex of the other side
     return merged[keep]
 

@@ -169,6 +169,17 @@ def test_a_mark_that_has_moved_leaves_no_trace_of_where_it_was():
         assert np.array_equal(moved.at(t), anew.at(t))
 
 
+@pytest.mark.parametrize(("name", "number"), [("beetle", 4), ("lizard", 2)])
+def test_coarse_maps_of_shapes_with_narrow_corners_keep_every_drawn_vertex(
+    shared_data, name, number
+):
+    shapes = np.load(shared_data / "mpeg7_outlines.npz")
+    ends = [shapes[f"{name}-{number + k:02d}"].astype(float) for k in (0, 1)]
+    morph = core.solve(*ends, recipe=Recipe(density=40))
+    for drawn, found in zip(ends, (morph.rest, morph.target), strict=True):
+        assert {tuple(p) for p in drawn} <= {tuple(p) for p in found}
+
+
 def test_a_comb_against_a_square_keeps_both_outlines():
     square = np.array([[0, 0], [9, 0], [9, 4], [0, 4]], dtype=float)
     morph = core.solve(comb(), square, [(0, 0), (1, 1)])
