@@ -20,8 +20,7 @@ from core.morph.compatible.removal import remove
 from core.morph.compatible.smoothing import smooth
 from core.progress import Watch, unwatched
 
-COARSENINGS, LITTLE = 12, 0.15
-"""Rounds of coarsening at most, and the part of the inner vertices not worth another round."""
+COARSENINGS = 12
 ROUNDS, RELAX_STEPS = 2, 2
 POOR = 0.3
 """Around triangles of less quality, any removal that does not harm is welcome."""
@@ -50,7 +49,7 @@ def coarsen(joint: JointMesh, watch: Watch = unwatched) -> JointMesh:
         everywhere = np.ones(len(joint.tail), bool)
         joint = flip(remove(joint, everywhere, np.full(len(everywhere), POOREST)), passes=3)
         joint = flip(smooth(joint), passes=3)
-        if len(joint.points) - joint.boundary_size > (1 - LITTLE) * inner - 1:
+        if len(joint.points) - joint.boundary_size > 0.98 * inner - 1:
             break
     return joint
 
