@@ -47,6 +47,8 @@ class View(pg.GraphicsView):
         super().__init__(pane)
         self.pane, self._camera = pane, camera
         self._pan_from: QPointF | None = None
+        self._held: Qt.MouseButton | None = None
+        """The button whose press is under way; until it is let go, others do nothing."""
         self._hand = False
         self._cursor = Qt.CursorShape.ArrowCursor
         self._box = pg.ViewBox(enableMouse=False, enableMenu=False, defaultPadding=0.0)
@@ -172,13 +174,14 @@ class View(pg.GraphicsView):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Start panning, or press the tool."""
-        left = event.button() == Qt.MouseButton.LeftButton
-        if event.button() == Qt.MouseButton.MiddleButton or (left and self._hand):
+        event.accept()
+        if not self._take(event):
+            return
+        if event.button() == Qt.MouseButton.MiddleButton or self._hand:
             self._pan_from = event.position()
             self._show_cursor()
-        elif left:
+        else:
             self.pressed.emit(self._pointer(event))
-        event.accept()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Pan, or move the tool."""
@@ -191,18 +194,30 @@ class View(pg.GraphicsView):
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """End panning, or release the tool."""
+        if event.button() != self._held:
+            return
+        self._held = None
         if self._pan_from is not None:
             self._pan_from = None
             self._show_cursor()
-        elif event.button() == Qt.MouseButton.LeftButton:
+        else:
             self.released.emit(self._pointer(event))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Tell the tool; panning sees just another press."""
-        if event.button() == Qt.MouseButton.LeftButton and not self._hand:
-            self.double_clicked.emit(self._pointer(event))
-        else:
+        if event.button() != Qt.MouseButton.LeftButton or self._hand:
             self.mousePressEvent(event)
+        elif self._take(event):
+            self.double_clicked.emit(self._pointer(event))
+
+    def _take(self, event: QMouseEvent) -> bool:
+        """Return whether a press may begin something, and remember its button if so."""
+        button = event.button()
+        useful = button in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton)
+        if not useful or self._held not in (None, button):
+            return False
+        self._held = button
+        return True
 
     def leaveEvent(self, event: QEvent) -> None:
         """Tell the tool that the mouse is elsewhere."""

@@ -17,8 +17,8 @@ class Session(QObject):
     """Holds the document. Everything else reads it here and changes it through here.
 
     An edit is ``session.apply(text, edit, *args)`` with a pure function of ``core.model.edits``.
-    A drag is ``begin(text)``, any number of ``apply`` calls, then ``commit()`` or ``abandon()``:
-    every ``apply`` in between starts from the document at ``begin``; the whole is one undo step.
+    A gesture of the mouse is the ``Drag`` that ``begin(text)`` returns. Every other edit, undo and
+    saving end it first, so that they keep what it has done so far.
     Where no end can be told, as when a number is typed, ``amend`` joins the steps of one gesture.
     """
 
@@ -34,7 +34,7 @@ class Session(QObject):
     def __init__(self, document: Document | None = None, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._document = document or Document()
-        self._drag: tuple[str, Document] | None = None
+        self._drag: Drag | None = None
         self.path: Path | None = None
         self.undo_stack = QUndoStack(self)
         self.undo_stack.cleanChanged.connect(self._on_clean_changed)
@@ -71,39 +71,32 @@ class Session(QObject):
         return self._apply(gesture, text, lambda document: edit(document, *args, **kwargs))
 
     def _apply(self, gesture: object, text: str, edit: Callable[[Document], Document]) -> bool:
-        base = self._drag[1] if self._drag else self._document
-        try:
-            after = edit(base)
-        except MorphError as error:
-            self.failed.emit(error)
+        self.commit()
+        before = self._document
+        after = self._edited(before, edit)
+        if after is before:
             return False
-        if after is self._document:
-            return False
-        if self._drag:
-            self._show(after)
-        elif after is not base:
-            self.undo_stack.push(_Swap(self, text, base, after, gesture))
+        self.undo_stack.push(_Swap(self, text, before, after, gesture))
         return True
 
-    def begin(self, text: str) -> None:
+    def _edited(self, document: Document, edit: Callable[[Document], Document]) -> Document:
+        """Return the document after an edit; if that is refused, say why and keep what is."""
+        try:
+            return edit(document)
+        except MorphError as error:
+            self.failed.emit(error)
+            return self._document
+
+    def begin(self, text: str) -> Drag:
         """Start a drag, named for the Edit menu."""
         self.commit()
-        self._drag = (text, self._document)
+        self._drag = Drag(self, text)
+        return self._drag
 
     def commit(self) -> None:
-        """End the drag; it becomes one undo step, or none if nothing changed."""
-        if self._drag is None:
-            return
-        (text, before), self._drag = self._drag, None
-        if self._document is not before:
-            self.undo_stack.push(_Swap(self, text, before, self._document))
-
-    def abandon(self) -> None:
-        """End the drag and go back to the document before it."""
-        if self._drag is None:
-            return
-        (_, before), self._drag = self._drag, None
-        self._show(before)
+        """End the drag that is under way, if any is, and keep what it has done."""
+        if self._drag is not None:
+            self._drag.commit()
 
     def undo(self) -> None:
         """Take back the last step; an unfinished drag counts as one."""
@@ -148,6 +141,45 @@ class Session(QObject):
         if document is not self._document:
             self._document = document
             self.changed.emit(document)
+
+
+class Drag:
+    """An edit still in the making: one undo step, or none if nothing changed in the end.
+
+    Each ``apply`` starts from the document at the beginning. Once it has ended, it does nothing.
+    """
+
+    def __init__(self, session: Session, text: str) -> None:
+        self._session, self._text, self._before = session, text, session.document
+
+    @property
+    def open(self) -> bool:
+        """Whether it is still under way; undo or another edit may have ended it."""
+        return self._session._drag is self
+
+    def apply(self, edit: Callable[..., Document], *args: Any, **kwargs: Any) -> None:
+        """Show ``edit(document at the beginning, *args, **kwargs)``."""
+        if self.open:
+            session = self._session
+            edited = session._edited(self._before, lambda before: edit(before, *args, **kwargs))
+            session._show(edited)
+
+    def commit(self) -> None:
+        """End it and keep what it has done."""
+        if self._end() and self._session.document is not self._before:
+            swap = _Swap(self._session, self._text, self._before, self._session.document)
+            self._session.undo_stack.push(swap)
+
+    def abandon(self) -> None:
+        """End it and go back to the document before it."""
+        if self._end():
+            self._session._show(self._before)
+
+    def _end(self) -> bool:
+        ending = self.open
+        if ending:
+            self._session._drag = None
+        return ending
 
 
 class _Swap(QUndoCommand):

@@ -55,10 +55,10 @@ class DocumentSection(Section):
         self._change(self.height_.gesture, self.tr("Change artboard"), size=(width, value))
 
     def _begin_background(self) -> None:
-        self.workspace.session.begin(self.tr("Change background"))
+        self.begin_drag(self.tr("Change background"))
 
     def _set_background(self, value: str) -> None:
         self._change(object(), self.tr("Change background"), background=value)
 
     def _change(self, gesture: object, text: str, **changes: Any) -> None:
-        self.workspace.session.amend(gesture, text, update_document, **changes)
+        self.edit(gesture, text, update_document, **changes)

@@ -80,10 +80,10 @@ class LayerSection(Section):
             self.workspace.session.apply(text, hang_layer, layer.id, carrier)
 
     def _begin_fill(self) -> None:
-        self.workspace.session.begin(self.tr("Change fill"))
+        self.begin_drag(self.tr("Change fill"))
 
     def _begin_stroke(self) -> None:
-        self.workspace.session.begin(self.tr("Change stroke"))
+        self.begin_drag(self.tr("Change stroke"))
 
     def _set_fill(self, value: str) -> None:
         self._change(object(), self.tr("Change fill"), fill=value)
@@ -98,8 +98,7 @@ class LayerSection(Section):
     def _change(self, gesture: object, text: str, **changes: Any) -> None:
         layer = self.workspace.selection.layer
         if layer is not None:
-            session = self.workspace.session
-            session.amend((gesture, layer.id), text, restyle, layer.id, **changes)
+            self.edit((gesture, layer.id), text, restyle, layer.id, **changes)
 
 
 def restyle(document: Document, layer_id: int, **changes: Any) -> Document:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
+from app.document.session import Drag
 from app.panels.heading import Heading
 from app.workspace import Workspace
+from core.model import Document
 
 LABEL_WIDTH = 78
 """Pixels: the same in every section, so that all fields are aligned."""
@@ -18,6 +23,7 @@ class Section(QWidget):
     def __init__(self, title: str, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.workspace = workspace
+        self._drag: Drag | None = None
         self._heading = Heading()
         self.set_title(title)
         self._body = QWidget()
@@ -58,9 +64,21 @@ class Section(QWidget):
         """Add a widget over the full width."""
         self._grid.addWidget(widget, self._grid.rowCount(), 0, 1, 2)
 
-    def end_drag(self, keep: bool) -> None:
-        """End a drag of the session that a field has begun."""
-        if keep:
-            self.workspace.session.commit()
+    def begin_drag(self, text: str) -> None:
+        """Begin a drag of the session, for a field that tells when it ends."""
+        self._drag = self.workspace.session.begin(text)
+
+    def edit(
+        self, gesture: object, text: str, edit: Callable[..., Document], *args: Any, **kwargs: Any
+    ) -> None:
+        """Make an edit within the drag under way, or else one step with others of its gesture."""
+        if self._drag is not None and self._drag.open:
+            self._drag.apply(edit, *args, **kwargs)
         else:
-            self.workspace.session.abandon()
+            self.workspace.session.amend(gesture, text, edit, *args, **kwargs)
+
+    def end_drag(self, keep: bool) -> None:
+        """End the drag, unless something else has."""
+        if self._drag is not None:
+            (self._drag.commit if keep else self._drag.abandon)()
+            self._drag = None

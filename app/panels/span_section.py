@@ -190,7 +190,7 @@ class SpanSection(Section):
         return way.format(abs(rounded)) if rounded else self.tr("no turn")
 
     def _begin(self) -> None:
-        self.workspace.session.begin(self.tr("Change easing"))
+        self.begin_drag(self.tr("Change easing"))
 
     def _set_easing(self, easing: Easing) -> None:
         self._apply(object(), self.tr("Change easing"), set_easing, easing)
@@ -225,4 +225,4 @@ class SpanSection(Section):
         layer = self.workspace.selection.layer
         if layer is not None and layer.spans:
             target = (layer.id, layer.span_at(self.workspace.playhead.frame)[0])
-            self.workspace.session.amend((gesture, target), text, edit, *target, value)
+            self.edit((gesture, target), text, edit, *target, value)

@@ -7,6 +7,7 @@ from typing import Protocol
 from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtWidgets import QApplication
 
+from app.document.session import Drag
 from app.timeline.rows import Place
 from app.timeline.time_view import TimeView
 from app.workspace import Workspace
@@ -68,31 +69,31 @@ class KeyDrag:
         least, self._most = layer.room(self._key)
         self._least = max(least, workspace.playhead.lowest)
         self._grabbed = x
-        self._dragging = False
+        self._drag: Drag | None = None
 
     def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
         """Follow the mouse, once it has left the place where it was pressed."""
-        if not self._dragging:
+        if self._drag is None:
             if abs(x - self._grabbed) < QApplication.startDragDistance():
                 return
-            self._dragging = True
-            self._workspace.session.begin(QCoreApplication.translate("Timeline", "Move keyframe"))
+            text = QCoreApplication.translate("Timeline", "Move keyframe")
+            self._drag = self._workspace.session.begin(text)
         frame = self._start + round((x - self._grabbed) / self._view.scale.pixels)
         frame = int(min(max(frame, self._least), self._most))
-        if frame != self._frame:
+        if frame != self._frame and self._drag.open:
             self._frame = frame
-            self._workspace.session.apply("", move_keyframe, self._layer_id, self._key, frame)
+            self._drag.apply(move_keyframe, self._layer_id, self._key, frame)
             self._workspace.playhead.move_to(frame)
 
     def finish(self) -> None:
         """Keep it there, as one undo step."""
-        if self._dragging:
-            self._workspace.session.commit()
+        if self._drag is not None:
+            self._drag.commit()
 
     def cancel(self) -> None:
         """Put it back."""
-        if self._dragging:
-            self._workspace.session.abandon()
+        if self._drag is not None and self._drag.open:
+            self._drag.abandon()
             self._workspace.playhead.move_to(self._start)
 
 
@@ -105,29 +106,33 @@ class KeyCopy:
         self._layer = workspace.session.document.layer(self._layer_id)
         self._copied = self._layer.keyframes[key]
         self._grabbed = x
-        workspace.session.begin(QCoreApplication.translate("Timeline", "Copy keyframe"))
+        text = QCoreApplication.translate("Timeline", "Copy keyframe")
+        self._drag = workspace.session.begin(text)
 
     def move(self, x: float, modifiers: Qt.KeyboardModifier) -> None:
         """Follow the mouse, but not to other keys; back where it began there is no copy."""
+        if not self._drag.open:
+            return
         frame = self._copied.frame + round((x - self._grabbed) / self._view.scale.pixels)
         frame = max(frame, self._workspace.playhead.lowest)
         if frame == self._copied.frame:
-            self._workspace.session.apply("", lambda document: document)
+            self._drag.apply(lambda document: document)
         elif self._layer.key_at(frame) is None:
             copy = Keyframe(frame, self._copied.outline, self._copied.marks)
-            self._workspace.session.apply("", insert_keyframe, self._layer_id, copy)
+            self._drag.apply(insert_keyframe, self._layer_id, copy)
         else:
             return
         self._go_to(frame)
 
     def finish(self) -> None:
         """Keep it there, as one undo step."""
-        self._workspace.session.commit()
+        self._drag.commit()
 
     def cancel(self) -> None:
         """Take it away."""
-        self._workspace.session.abandon()
-        self._go_to(self._copied.frame)
+        if self._drag.open:
+            self._drag.abandon()
+            self._go_to(self._copied.frame)
 
     def _go_to(self, frame: int) -> None:
         """Choose the key at a frame, and go there."""

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.canvas.pointer import Pointer
+from app.canvas.tools.tool import Apply
 from app.document.selection import Selection
-from app.document.session import Session
 from core.geometry.places import nearest_place
 from core.model import Document, Outline, RingPoint, edits
 from core.model.outline import Array
@@ -19,7 +19,7 @@ from core.morph.suggest import snap
 class DragMark:
     """A drag of a mark along an outline; it snaps to corners unless Shift is held."""
 
-    session: Session
+    drag: Apply
     selection: Selection
     text: str
     mark: int
@@ -34,7 +34,7 @@ class DragMark:
         place, _ = nearest_place(self.outline, pointer.position + self.offset)
         if not pointer.shift:
             place = snap(self.outline, place, pointer.reach)
-        self.session.apply(self.text, self.put, place)
+        self.drag(self.put, place)
         self.selection.select_mark(self.mark)
 
     def end(self, pointer: Pointer) -> None:

@@ -96,7 +96,7 @@ class MarksTool(Tool):
         else:
             return None
         offset = outline.position(place) - pointer.position
-        return DragMark(self.session, self.selection, text, mark, outline, offset, put)
+        return DragMark(self.drag, self.selection, text, mark, outline, offset, put)
 
     def click(self, pointer: Pointer) -> None:
         """Accept the suggestion under the mouse, or place a mark on the outline."""

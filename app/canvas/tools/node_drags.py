@@ -9,8 +9,8 @@ import numpy as np
 from app.canvas.node_hits import HandleHit, Node, smooth_nodes
 from app.canvas.pointer import Pointer
 from app.canvas.tools import edits as composed
+from app.canvas.tools.tool import Apply
 from app.document.selection import Selection
-from app.document.session import Session
 from core.model import Outline, edits
 from core.model.outline import Array
 
@@ -19,7 +19,7 @@ from core.model.outline import Array
 class MoveNodes:
     """A drag of the selected nodes."""
 
-    session: Session
+    drag: Apply
     text: str
     layer_id: int
     key: int
@@ -31,9 +31,7 @@ class MoveNodes:
         step = pointer.position - self.start
         if pointer.shift:
             step[np.argmin(np.abs(step))] = 0.0
-        self.session.apply(
-            self.text, composed.move_nodes, self.layer_id, self.key, self.nodes, step
-        )
+        self.drag(composed.move_nodes, self.layer_id, self.key, self.nodes, step)
 
     def end(self, pointer: Pointer) -> None:
         """Nothing is left to do."""
@@ -43,7 +41,7 @@ class MoveNodes:
 class MoveHandle:
     """A drag of one Bézier handle; a smooth node stays smooth unless Alt is held."""
 
-    session: Session
+    drag: Apply
     text: str
     layer_id: int
     key: int
@@ -61,9 +59,7 @@ class MoveHandle:
         length = float(np.hypot(*reach))
         if smooth_nodes(ring)[i] and not pointer.alt and length > 0:
             ends[other] = -reach / length * float(np.hypot(*ends[other]))
-        self.session.apply(
-            self.text, edits.set_handles, self.layer_id, self.key, (r, i), ends["in"], ends["out"]
-        )
+        self.drag(edits.set_handles, self.layer_id, self.key, (r, i), ends["in"], ends["out"])
 
     def end(self, pointer: Pointer) -> None:
         """Nothing is left to do."""

@@ -61,7 +61,7 @@ class NodesTool(Tool):
         key, hit = self.selection.key, self._hit_at(pointer)
         if isinstance(hit, HandleHit):
             text = self.tr("Move handle")
-            return MoveHandle(self.session, text, layer.id, key, hit, keyframe.outline)
+            return MoveHandle(self.drag, text, layer.id, key, hit, keyframe.outline)
         if hit is None:
             kept = self.selection.nodes if pointer.shift else frozenset()
             self.selection.select_nodes(kept)
@@ -69,7 +69,7 @@ class NodesTool(Tool):
             return Marquee(self.selection, keyframe.outline, start, kept, start)
         self._select(_nodes_of(hit, keyframe.outline), add=pointer.shift)
         nodes, text = self.selection.nodes, self.tr("Move nodes")
-        return MoveNodes(self.session, text, layer.id, key, nodes, pointer.position)
+        return MoveNodes(self.drag, text, layer.id, key, nodes, pointer.position)
 
     def double_click(self, pointer: Pointer) -> None:
         """Add a node on the edge, or turn a node from corner to smooth and back."""

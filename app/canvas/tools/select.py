@@ -11,9 +11,8 @@ from PySide6.QtGui import QPainter
 
 from app.canvas.ink import draw_line, draw_nodes, pen
 from app.canvas.pointer import REACH, Pointer
-from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
+from app.canvas.tools.tool import Apply, Command, Gesture, Tool, arrow_step
 from app.canvas.tools.transform_box import TransformBox
-from app.document.session import Session
 from app.style import colours
 from app.workspace import Workspace
 from core.model import edits
@@ -37,7 +36,7 @@ CURSORS = (
 class Transform:
     """A drag of the outline or of one of its handles."""
 
-    session: Session
+    drag: Apply
     text: str
     layer_id: int
     key: int
@@ -59,7 +58,7 @@ class Transform:
             change = self.box.scaling(
                 self.handle, self.start, now, even=pointer.shift, centred=pointer.alt
             )
-        self.session.apply(self.text, edits.transform_outline, self.layer_id, self.key, *change)
+        self.drag(edits.transform_outline, self.layer_id, self.key, *change)
 
     def end(self, pointer: Pointer) -> None:
         """Nothing is left to do."""
@@ -116,7 +115,7 @@ class SelectTool(Tool):
         box = TransformBox.around(keyframe.outline)
         key = pointer.pane.key
         self._taken = layer.id, key
-        return Transform(self.session, text, layer.id, key, box, handle, pointer.position)
+        return Transform(self.drag, text, layer.id, key, box, handle, pointer.position)
 
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Nudge the outline that was taken, or let go of it; else arrows step through time."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from PySide6.QtCore import QObject, Qt
@@ -11,14 +11,17 @@ from PySide6.QtGui import QPainter
 
 from app.canvas.ink import draw_outline
 from app.canvas.pointer import DRAG_DISTANCE, Pointer
+from app.document.session import Drag
 from app.workspace import Workspace
-from core.model import Layer
+from core.model import Document, Layer
 from core.model.outline import Array
 
 if TYPE_CHECKING:
     from app.canvas.pane import Pane
 
 Command = Callable[[], None]
+Apply = Callable[..., None]
+"""Takes an edit of a document, and what to call it with."""
 
 STEP, LARGE_STEP = 1.0, 10.0
 """Document units that an arrow key moves, without and with Shift."""
@@ -46,8 +49,8 @@ class Gesture(Protocol):
 class Tool(QObject):
     """A tool overrides what it needs of ``hover`` to ``leave``.
 
-    A gesture with a text runs inside one session drag: every edit it applies starts from the
-    document at the press, all of it is one undo step, and Esc takes it back.
+    A gesture with a text runs inside one session drag: every edit it hands to ``drag`` starts from
+    the document at the press, all of it is one undo step, and Esc takes it back.
     """
 
     name = ""
@@ -65,6 +68,7 @@ class Tool(QObject):
         self.notice = ""
         """Said instead of the advice until the next press: why something was refused."""
         self._gesture: Gesture | None = None
+        self._drag: Drag | None = None
         self._pressed: Pointer | None = None
         self._last: Pointer | None = None
         self._moving = False
@@ -134,9 +138,9 @@ class Tool(QObject):
             self.hover(pointer)
         elif self._gesture is not None and (self._moving or self._far(pointer)):
             if self._gesture.text and not self._moving:
-                self.session.begin(self._gesture.text)
-            elif self._gesture.text and not self.session.dragging:  # undo has ended the drag
-                self._gesture = None
+                self._drag = self.session.begin(self._gesture.text)
+            elif self._drag is not None and not self._drag.open:  # undo or another edit ended it
+                self._gesture = self._drag = None
                 return
             self._moving = True
             self._gesture.move(pointer)
@@ -151,15 +155,16 @@ class Tool(QObject):
             self.click(pressed)
         elif gesture is not None:
             gesture.end(pointer)
-            if gesture.text:
-                self.session.commit()
+            if self._drag is not None:
+                self._drag.commit()
+        self._drag = None
         self.hover(pointer)
 
     def abandon(self) -> None:
         """Take back the gesture under way."""
-        if self._gesture is not None and self._gesture.text and self._moving:
-            self.session.abandon()
-        self._gesture = self._pressed = None
+        if self._drag is not None:
+            self._drag.abandon()
+        self._gesture = self._pressed = self._drag = None
 
     def put_away(self) -> None:
         """Stop, because another tool is taken; nothing that was drawn may be lost."""
@@ -177,6 +182,11 @@ class Tool(QObject):
         self.held = object()
 
     # -- shared --------------------------------------------------------------------------------
+
+    def drag(self, edit: Callable[..., Document], *args: Any) -> None:
+        """Show what the gesture under way makes of the document at its beginning."""
+        if self._drag is not None:
+            self._drag.apply(edit, *args)
 
     @property
     def layer(self) -> Layer | None:

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from app.canvas.moment import Role
 from core.io import project
 from core.model import Document, Keyframe, Layer, Outline, RingPoint
-from core.model.edits import move_mark
+from core.model.edits import move_mark, move_nodes
 from core.morph.layer_match import Suggestion
 from core.morph.scene import solve_span, span_of
 from tests.app.canvas.conftest import Hand
@@ -261,17 +261,15 @@ def test_they_follow_a_dragged_node_after_its_release_and_are_stale_until_then(
 def test_a_stale_suggestion_cannot_be_accepted(hand: Hand):
     session, suggestions = hand.workspace.session, hand.workspace.suggestions
     chosen = suggestions.shown[0]
-    from core.model.edits import move_nodes
-
-    session.begin("Move node")
-    session.apply("Move node", move_nodes, 1, 1, 0, [1], (20.0, 0.0))
+    drag = session.begin("Move node")
+    drag.apply(move_nodes, 1, 1, 0, [1], (20.0, 0.0))
     moved = hand.document
     suggestions.accept(chosen)
     suggestions.accept_all()
     hand.key(SOURCE, Key.Key_Return)
     assert hand.document is moved
     assert not hand.pane(SOURCE).suggested.current
-    session.abandon()
+    drag.abandon()
 
 
 def test_they_follow_the_playhead_to_another_span(open_canvas, settle):

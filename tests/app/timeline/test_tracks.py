@@ -86,6 +86,41 @@ def test_dragging_a_key_is_one_step_and_undo_restores_the_identical_document(
     assert workspace.session.document is before
 
 
+@pytest.mark.parametrize("copied", [False, True])
+def test_undo_while_a_key_is_dragged_or_copied_ends_that_and_leaves_nothing_of_it(
+    timeline: Timeline, workspace: Workspace, mouse: Mouse, copied: bool
+) -> None:
+    before = workspace.session.document
+    modifiers = ALT if copied else Qt.KeyboardModifier.NoModifier
+    mouse.press(x_of(timeline, 13), BOTTOM, modifiers=modifiers)
+    mouse.move(x_of(timeline, 16), BOTTOM)
+    assert workspace.session.document is not before
+    workspace.session.undo()
+    frame = workspace.playhead.frame
+    mouse.move(x_of(timeline, 20), BOTTOM)
+    mouse.release()
+    assert workspace.session.document is before
+    assert workspace.session.undo_stack.index() == 0
+    assert workspace.playhead.frame == frame
+
+
+@pytest.mark.parametrize("copied", [False, True])
+def test_an_edit_while_a_key_is_dragged_or_copied_ends_that_and_both_are_kept(
+    timeline: Timeline, workspace: Workspace, mouse: Mouse, copied: bool
+) -> None:
+    modifiers = ALT if copied else Qt.KeyboardModifier.NoModifier
+    mouse.press(x_of(timeline, 13), BOTTOM, modifiers=modifiers)
+    mouse.move(x_of(timeline, 16), BOTTOM)
+    workspace.session.apply("Rename layer", update_layer, 2, name="Leaf")
+    renamed = workspace.session.document
+    mouse.move(x_of(timeline, 20), BOTTOM)
+    QTest.keyClick(timeline.tracks, Key.Key_Escape)
+    mouse.release()
+    assert workspace.session.document is renamed
+    assert frames(workspace) == ([1, 13, 16, 25] if copied else [1, 16, 25])
+    assert workspace.session.undo_stack.index() == 2
+
+
 def test_a_dragged_key_takes_the_playhead_along(
     timeline: Timeline, workspace: Workspace, mouse: Mouse
 ) -> None:
