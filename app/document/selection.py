@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from weakref import ref
+
 from PySide6.QtCore import QObject, Signal
 
 from app.document.session import Session
 from core.model import Document, Keyframe, Layer
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """What was selected in a document when it was left."""
+
+    document: ref[Document]
+    selected: tuple[int | None, int, frozenset[tuple[int, int]], int | None]
+    """Layer, key, nodes and mark."""
 
 
 class Selection(QObject):
@@ -20,7 +32,10 @@ class Selection(QObject):
         self._key = 0
         self._nodes: frozenset[tuple[int, int]] = frozenset()
         self._mark: int | None = None
-        session.changed.connect(self._keep_valid)
+        self._seen = session.document
+        self._kept: dict[int, _Kept] = {}
+        """What was selected in documents that can be shown again, by their identity."""
+        session.changed.connect(self._follow)
         session.replaced.connect(self._start_over)
         self._keep_valid(session.document)
 
@@ -76,7 +91,24 @@ class Selection(QObject):
         self._nodes, self._mark = frozenset(), None
         self.changed.emit()
 
+    def _follow(self, document: Document) -> None:
+        """Select what was selected when this very document was left: undo and redo show it again.
+
+        Anything else that no longer exists is not selected any more.
+        """
+        selected = self._layer_id, self._key, self._nodes, self._mark
+        self._kept = {key: kept for key, kept in self._kept.items() if kept.document() is not None}
+        self._kept[id(self._seen)] = _Kept(ref(self._seen), selected)
+        self._seen = document
+        kept = self._kept.get(id(document))
+        if kept is not None and kept.selected != selected:
+            self._layer_id, self._key, self._nodes, self._mark = kept.selected
+            self.changed.emit()
+        self._keep_valid(document)
+
     def _start_over(self) -> None:
+        self._kept.clear()
+        self._seen = self._session.document
         layers = self._session.document.layers
         self._set(layers[-1].id if layers else None, 0)
 
