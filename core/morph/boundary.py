@@ -26,10 +26,12 @@ STEEP = 5.0
 """How much longer than its neighbour an edge may be."""
 MOST_SPLITS = 64
 """Each quarters longer edges, and shifts the excess to the next: more than any outline takes."""
-SAME = 1e-9
-"""Places closer than this fraction of the perimeter are one vertex."""
 COINCIDENT = 1e-7
 """Marks closer than this fraction of the perimeter lie on top of each other."""
+HAIR = 1e-9
+"""A mark within this fraction of the perimeter beside a vertex is at it: marks are rounded."""
+EQUAL = 1e-12
+"""Arc lengths that differ by less than this fraction of the perimeter do so by rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +80,11 @@ def correspond(
     order = np.roll(order, -int(np.argmin(order)))  # from the first mark, wherever the list starts
     _check_apart(ring, labels)
     _check_order(ring, order, labels)
-    outlines, marks = (ring.source, ring.target), (ring.source_marks, ring.target_marks)
+    outlines = ring.source, ring.target
+    marks = (
+        _at_vertices(ring.source, ring.source_marks),
+        _at_vertices(ring.target, ring.target_marks),
+    )
     reach = SNAP * np.minimum(spacing, [_median_edge(points) for points in outlines])
     source, target = map(_Curve, outlines, (at[order[0]] for at in marks))
     anchors = np.column_stack([at[order] - at[order[0]] for at in marks])
@@ -98,7 +104,7 @@ class _Curve:
         self._start = start
         self.perimeter = float(self._lengths[-1])
         from_start = np.mod(self._lengths[:-1] - start, self.perimeter)
-        from_start[self.perimeter - from_start < 1e-12 * self.perimeter] = 0.0
+        from_start[self.perimeter - from_start < EQUAL * self.perimeter] = 0.0
         order = np.argsort(from_start, kind="stable")
         self.vertices = from_start[order]
         """(n,) increasing arc lengths of the vertices."""
@@ -111,9 +117,17 @@ class _Curve:
         points = points_at(self._points, self._lengths, at + self._start)
         nearest = np.clip(np.searchsorted(self.vertices, at), 0, len(self.vertices) - 1)
         for i in (nearest, nearest - 1):
-            same = np.abs(self.vertices[i] - at) <= 1e-12 * self.perimeter
+            same = np.abs(self.vertices[i] - at) <= EQUAL * self.perimeter
             points[same] = self._corners[i[same]]
         return points
+
+
+def _at_vertices(points: Array, at: Array) -> Array:
+    """Return arc lengths (j,) with those a hair beside a vertex set to the vertex's own."""
+    lengths = arc_lengths(points)
+    nearest = _nearest(at, lengths)
+    beside = np.abs(lengths[nearest] - at) < HAIR * lengths[-1]
+    return np.where(beside, lengths[nearest], at)
 
 
 def _check_apart(ring: MatchedRing, labels: Sequence[str]) -> None:
@@ -195,7 +209,7 @@ def _pointed(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Ar
         image, back = np.interp(at, here, there), np.interp(other.vertices, there, here)
         away = np.column_stack([back - at, other.vertices - image])[:, way]
         after = np.searchsorted(here, at)
-        inside = there[after - 1 : after + 1] + SAME * there[-1] * np.array([1, -1])
+        inside = there[after - 1 : after + 1] + EQUAL * there[-1] * np.array([1, -1])
         near = (inside[0] < other.vertices) & (other.vertices < inside[1])
         near &= (np.abs(away) <= reach).all(axis=1)
         left = np.minimum(np.minimum(angle, other.angles), (np.pi - other.angles) / 2)
@@ -234,7 +248,7 @@ def _joined(anchors: Array, source: _Curve, target: _Curve, reach: Array) -> Arr
 
 def _between(places: Array, ends: Array) -> tuple[Array, Indices]:
     """Return the places (k,) that are not at one of the ends, and after which end each lies."""
-    margin = 1e-12 * ends[-1]
+    margin = EQUAL * ends[-1]
     arc = np.searchsorted(ends, places - margin, side="right")
     inside = np.searchsorted(ends, places + margin, side="right") == arc
     return places[inside], arc[inside]
@@ -253,20 +267,12 @@ def _nearest(a: Array, b: Array) -> Indices:
 
 def _union(anchors: Array, source: _Curve, target: _Curve) -> Array:
     """Return (k, 2) arc lengths of every vertex of both outlines, on both outlines."""
-    ends = _closed(anchors, source, target)
-    from_source = np.column_stack(
-        [source.vertices, np.interp(source.vertices, ends[:, 0], ends[:, 1])]
-    )
-    from_target = np.column_stack(
-        [np.interp(target.vertices, ends[:, 1], ends[:, 0]), target.vertices]
-    )
+    here, there = _closed(anchors, source, target).T
+    (a, _), (b, _) = _between(source.vertices, here), _between(target.vertices, there)
+    from_source = np.column_stack([a, np.interp(a, here, there)])
+    from_target = np.column_stack([np.interp(b, there, here), b])
     merged = np.vstack([anchors, from_source, from_target])
-    merged = merged[np.lexsort((merged[:, 1], merged[:, 0]))]
-    size = np.array([source.perimeter, target.perimeter])
-    step = np.diff(merged, axis=0) / size
-    keep = np.append(True, (step > SAME).all(axis=1))
-    # what is left out is a repeat of its neighbour, unless it is a drawn vertex of the other side
-    return merged[keep]
+    return merged[np.lexsort((merged[:, 1], merged[:, 0]))]
 
 
 def _densified(pairs: Array, source: _Curve, target: _Curve, spacing: tuple[float, float]) -> Array:

@@ -9,6 +9,7 @@ from core.morph.boundary import STEEP, MatchedRing, correspond
 from tests.core.shapes import ellipse, letter_l, star_shaped
 
 LABELS = "abcdefgh"
+SQUARE = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
 
 
 def matched(source, target, source_marks, target_marks):
@@ -21,12 +22,43 @@ def matched(source, target, source_marks, target_marks):
     )
 
 
+def jagged(rng, count):
+    """Return a star-shaped ring (count, 2) whose radius jumps at every vertex."""
+    angle, radius = np.sort(rng.uniform(0, 2 * np.pi, count)), rng.uniform(0.3, 1, count)
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
+
+
 @given(star_shaped(), star_shaped(), st.integers(0, 4), st.floats(0.02, 1))
 def test_every_drawn_vertex_of_both_outlines_is_there_exactly(source, target, start, spacing):
     ring = matched(source, target, [0.0], [arc_lengths(target)[start]])
     pair = correspond(ring, (spacing, spacing), LABELS)
     assert {tuple(p) for p in source} <= {tuple(p) for p in pair.source}
     assert {tuple(p) for p in target} <= {tuple(p) for p in pair.target}
+
+
+def contains(pair, source, target):
+    drawn = {tuple(p) for p in source} <= {tuple(p) for p in pair.source}
+    return drawn and {tuple(p) for p in target} <= {tuple(p) for p in pair.target}
+
+
+@given(st.integers(0, 10_000))
+def test_no_drawn_vertex_is_lost_where_marks_are_rounded_beside_corners(seed):
+    rng = np.random.default_rng(seed)
+    source, target = jagged(rng, 60), jagged(rng, 12)
+    here, there = (arc_lengths(ring) for ring in (source, target))
+    i, j = (np.sort(rng.choice(count, 4, replace=False)) for count in (60, 12))
+    beside = rng.uniform(-1e-14, 1e-14, (2, 4))
+    marks = np.abs(here[i] + beside[0]), np.abs(there[j] + beside[1])
+    pair = correspond(matched(source, target, *marks), (0.2, 0.2), LABELS)
+    assert contains(pair, source, target)
+
+
+@pytest.mark.parametrize("gap", [1e-6, 1e-4, 1e-2])
+def test_no_drawn_vertex_is_lost_between_marks_that_are_close_on_the_other_outline(gap):
+    source, target = np.insert(SQUARE, 2, [1, gap], axis=0), ellipse(400)
+    marks = arc_lengths(source)[[1, 2]], arc_lengths(target)[[0, 200]]
+    pair = correspond(matched(source, target, *marks), (0.1, 0.1), LABELS)
+    assert contains(pair, source, target)
 
 
 @given(star_shaped(), star_shaped(), st.floats(0.02, 1))
