@@ -54,6 +54,12 @@ def turn_and_mirror(F: Array) -> tuple[Complex, Complex]:
     return turn, mirror
 
 
+def stretches(turn: Array, mirror: Array) -> tuple[Array, Array]:
+    """Return σ₁ ≥ σ₂ > 0 (m,) for |turn| > |mirror| (m,), also where rounding leaves σ₂ nothing."""
+    high = turn + mirror
+    return high, np.maximum(turn - mirror, np.finfo(float).eps * high)
+
+
 def signed_singular_values(F: Array) -> tuple[Array, Array]:
     """Return σ₁ ≥ |σ₂| (m,) of F (m, 2, 2), σ₂ with the sign of det F."""
     turn, mirror = turn_and_mirror(F)
@@ -68,9 +74,10 @@ def wrap(angle: Array) -> Array:
 def unwrap(theta: Array, neighbours: Indices, weights: Array) -> Array:
     """Add whole turns so that neighbouring triangles differ by at most π where that is possible.
 
-    ``theta`` (m,), ``neighbours`` (k, 2) pairs that connect all triangles, ``weights`` (m,). The
-    pairs are followed from the smallest difference up (a minimum spanning tree), so that a doubtful
-    pair decides last. The weighted mean is then brought into [-π, π).
+    ``theta`` (m,), ``neighbours`` (k, 2) pairs, ``weights`` (m,). The pairs are followed from the
+    smallest difference up (a minimum spanning tree), so that a doubtful pair decides last. What
+    they do not connect with the first triangle stays as it is. The weighted mean is then brought
+    into [-π, π).
     """
     m = len(theta)
     i, j = neighbours.T
@@ -79,7 +86,7 @@ def unwrap(theta: Array, neighbours: Indices, weights: Array) -> Array:
     _, parent = breadth_first_order(tree, 0, directed=False)
     parent = np.where(parent < 0, np.arange(m), parent)
     turns = np.round((theta[parent] - theta) / (2 * np.pi))
-    while parent.any():  # sum the turns up to the root, doubling the stride
+    while (parent != parent[parent]).any():  # sum the turns up to the root, doubling the stride
         turns, parent = turns + turns[parent], parent[parent]
     out = theta + 2 * np.pi * turns
     mean = np.average(out, weights=weights)

@@ -40,7 +40,12 @@ def solve(
     Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint.
     """
     ends = _outline(source, "source"), _outline(target, "target")
-    pairs = [_places(ends, pair, i) for i, pair in enumerate(() if marks is None else marks)]
+    given = () if marks is None else marks
+    if not np.iterable(given):
+        raise MarkError(
+            f"The marks are {given}, not a list of pairs.", hint="Give [(vertex, vertex), …]."
+        )
+    pairs = [_places(ends, pair, i) for i, pair in enumerate(given)]
     return solve_outlines(*ends, pairs, recipe=recipe, progress=progress)
 
 

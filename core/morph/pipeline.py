@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from itertools import islice
+from numbers import Integral
 from time import perf_counter
+from typing import get_args
 
 import numpy as np
 
@@ -16,7 +18,7 @@ from core.geometry.validate import CleanOutline, check_together, clean
 from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
-from core.model.recipe import LEAST_DENSITY, MOST_DENSITY
+from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Material, Method
 from core.morph.certificate import Certificate
 from core.morph.correspondence import place_marks, unplace_marks, ways
 from core.morph.mapping import Map
@@ -105,10 +107,19 @@ def _cleaned(outline: Outline, side: str) -> CleanOutline:
 
 
 def _check_recipe(recipe: Recipe) -> None:
-    if not LEAST_DENSITY <= recipe.density <= MOST_DENSITY:
+    for name, choice, choices in (
+        ("method", recipe.method, get_args(Method)),
+        ("material", recipe.material, get_args(Material)),
+    ):
+        if choice not in choices:
+            raise SolveError(
+                f"There is no {name} {choice!r}.", hint=f"Choose {' or '.join(choices)}."
+            )
+    whole = isinstance(recipe.density, Integral)
+    if not (whole and LEAST_DENSITY <= recipe.density <= MOST_DENSITY):
         raise SolveError(
             f"A mesh density of {recipe.density} is out of range.",
-            hint=f"Choose {LEAST_DENSITY} to {MOST_DENSITY} boundary vertices.",
+            hint=f"Choose {LEAST_DENSITY} to {MOST_DENSITY} boundary vertices, a whole number.",
         )
     if not (0 <= recipe.lam < np.inf and 0 < recipe.mu < np.inf):
         raise SolveError(

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from core.geometry.rotation import Complex, phasor, turn_and_mirror, unwrap
+from core.geometry.rotation import Complex, phasor, stretches, turn_and_mirror, unwrap
 from core.geometry.triangulation import Indices, adjacent_triangles
 from core.model.outline import Array
 
@@ -69,7 +69,7 @@ class LogStretch:
         half = np.abs(mirror)
         self._half_axes = mirror / np.where(half > 0, 2 * half, 1)
         """(m,) the axes of stretch: half the angle, as a complex number, of length ½."""
-        self._logs = np.log([turn + half, turn - half])
+        self._logs = np.log(stretches(turn, half))
 
     def __call__(self, t: float) -> tuple[Array, Complex]:
         """Return turn and mirror of Sᵗ (m,), from its eigenvalues."""

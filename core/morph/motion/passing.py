@@ -12,7 +12,7 @@ from typing import Self
 
 import numpy as np
 
-from core.geometry.rotation import Complex, phasor, turn_and_mirror, unit
+from core.geometry.rotation import Complex, phasor, stretches, turn_and_mirror, unit
 from core.model.outline import Array
 
 Rates = tuple[Complex | None, Complex | None]
@@ -37,8 +37,7 @@ class Exponent:
     def of(cls, F: Array, theta: Array) -> Self:
         """Take it from gradients F (m, 2, 2) without folds and their unwrapped angles (m,)."""
         turn, mirror = turn_and_mirror(F)
-        mean, half = np.abs(turn), np.abs(mirror)
-        high, low = np.log(mean + half), np.log(mean - half)
+        high, low = np.log(stretches(np.abs(turn), np.abs(mirror)))
         axes = unit(mirror * np.exp(-1j * theta))
         return cls(np.stack([(high + low) / 2 + 1j * theta, (high - low) / 2 * axes]))
 

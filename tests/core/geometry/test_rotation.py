@@ -55,3 +55,10 @@ def test_unwrapping_does_not_depend_on_the_numbering(order):
     place = np.argsort(order)
     shuffled = unwrap((truth[order] + np.pi) % (2 * np.pi) - np.pi, place[neighbours], np.ones(30))
     assert np.allclose(shuffled, plain[order])
+
+
+def test_unwrapping_leaves_what_nothing_connects_as_it_is():
+    out = unwrap(
+        np.array([0.0, 3.0, -3.0, 1.0, 2.0]), np.array([[0, 1], [1, 2], [3, 4]]), np.ones(5)
+    )
+    assert np.allclose(out, [0, 3, 2 * np.pi - 3, 1, 2])

@@ -77,10 +77,20 @@ def test_holes_without_partners_are_named_as_many_as_there_are(source, target, h
 
 
 @pytest.mark.parametrize(
-    "recipe", [{"density": 0}, {"density": 10**9}, {"mu": 0.0}, {"lam": -1.0}, {"mu": np.nan}]
+    "recipe",
+    [
+        {"density": 0},
+        {"density": 10**9},
+        {"density": 12.5},
+        {"mu": 0.0},
+        {"lam": -1.0},
+        {"mu": np.nan},
+        {"method": "magic"},
+        {"material": "jelly"},
+    ],
 )
 def test_a_recipe_that_makes_no_sense_is_refused(recipe):
-    with pytest.raises(core.SolveError, match=r"density|elastic"):
+    with pytest.raises(core.SolveError, match=r"density|elastic|no method|no material"):
         core.solve(ellipse(), letter_l(), recipe=core.Recipe(**recipe))
 
 
@@ -223,3 +233,8 @@ def test_marks_of_the_artist_are_not_reported_as_proposals():
     rings = [np.array(ring) for ring in square_ring()]
     proposed = core.solve(rings, rings, [(0, 0)]).report.proposed
     assert {(a.ring, b.ring) for a, b, _ in proposed} == {(1, 1)}
+
+
+def test_marks_that_are_no_list_are_refused():
+    with pytest.raises(core.MarkError, match="not a list of pairs"):
+        core.solve(ellipse(), letter_l(), 5)

@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 import core
 from core.model import Turning
+from core.morph.certificate import Certificate
+from core.morph.motion.motion import Motion
 from tests.core.shapes import ellipse, letter_l, limb, rotation, star_shaped
 
 TIMES = [0.1, 0.25, 0.5, 0.8, 0.95]
@@ -121,3 +123,11 @@ def test_where_a_shape_is_drawn_and_how_large_changes_nothing_but_that():
     for t in TIMES:
         a, b = (m.at(t)[m.rings[0]] for m in (near, far))
         assert np.abs((b - 1e-3) * 1e6 - a).max() < 1e-6
+
+
+def test_a_triangle_that_is_barely_one_has_frames():
+    rest = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    target = np.array([[0, 0], [1, 0.1], [3, np.nextafter(0.3, 1)], [0, 1]])
+    triangles = np.array([[0, 1, 2], [0, 2, 3]])
+    assert Certificate.of(triangles, (np.arange(4),), rest, target).holds
+    assert np.isfinite(Motion.of("arap", (rest, target), triangles)(0.5)).all()
