@@ -49,7 +49,7 @@ class Beginning(QObject):
     def open_first(self, path: Path | None, welcome: bool) -> None:
         """Open a file, or else a sample that is moving, with the welcome panel if wanted."""
         if path is not None:
-            self._files.open_path(path)
+            self._files.take([path])
             return
         if samples := resources.samples():
             self.play_sample(samples[0])

@@ -14,7 +14,7 @@ from app.workspace import Workspace
 from core.geometry.flatten import flatten
 from core.io.exporters.svg import drawing
 from core.model import Document, Keyframe, Layer
-from core.model.edits import add_layer, update_layer
+from core.model.edits import add_layer, remove_keyframe, update_layer
 from core.model.picture import Picture, Shape
 
 SVG = "image/svg+xml"
@@ -60,9 +60,10 @@ class Clipboard(QObject):
         self.noted.emit(told.format(frame=keyframe.frame, name=layer.name))
 
     def cut(self) -> None:
-        """Copy the current keyframe and delete it."""
+        """Copy the current keyframe and delete it, wherever the playhead is."""
         self.copy()
-        self._commands.remove_keyframe()
+        layer, key = self._commands.unlocked(), self._workspace.selection.key
+        self._workspace.session.apply(self.tr("Cut keyframe"), remove_keyframe, layer.id, key)
 
     def paste(self) -> None:
         """Put the copied keyframe at the playhead, or import a drawing from another program."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal, TypeVar
 
@@ -56,12 +57,12 @@ def ask_recovery(parent: QWidget, leftover: Leftover) -> Literal["recover", "dis
     )
 
 
-def ask_replace(parent: QWidget, count: int, folder: Path) -> bool:
-    """Ask whether files that exist may be replaced."""
-    text = _tr("Replace {count} files in “{folder}”?") if count > 1 else _tr("Replace the file?")
+def ask_replace(parent: QWidget, paths: Sequence[Path]) -> bool:
+    """Ask whether files that exist, all in one folder, may be replaced."""
+    text = _tr("Replace {count} files in “{folder}”?") if len(paths) > 1 else _tr("Replace “{}”?")
     return _ask(
         parent,
-        text.format(count=count, folder=folder.name),
+        text.format(paths[0].name, count=len(paths), folder=paths[0].parent.name),
         "",
         {True: _tr("&Replace"), False: _tr("&Cancel")},
         default=False,

@@ -55,8 +55,9 @@ class ExportDialog(QDialog):
     def start(self) -> None:
         """Write the files in the background."""
         export = self.form.export()
-        existing = [path for path in self.form.paths() if path.exists()]
-        if existing and not dialogs.ask_replace(self, len(existing), export.folder):
+        paths = map(export.path, range(export.count))
+        existing = [path for path in paths if path.exists()]
+        if existing and not dialogs.ask_replace(self, existing):
             return
         self.form.remember()
         self.bar.setValue(0)

@@ -78,16 +78,6 @@ class ExportForm(QWidget):
             self._background() if entry.paints else None,
         )
 
-    def paths(self) -> list[Path]:
-        """Return the files that will be written, as far as their names are known."""
-        export = self.export()
-        if not export.format.numbered:
-            return [export.folder / f"{export.stem}{export.format.suffix}"]
-        return [
-            export.folder / f"{export.stem}-{frame:04d}{export.format.suffix}"
-            for frame in range(export.frames[0], export.frames[1] + 1)
-        ]
-
     def remember(self) -> None:
         """Start from these choices next time."""
         self._settings.set_folder("export", Path(self.folder.text()).expanduser())
@@ -111,11 +101,11 @@ class ExportForm(QWidget):
             return self.tr("The name cannot be empty or hold {signs}").format(
                 signs=" ".join(sorted(NOT_IN_NAMES))
             )
-        paths = self.paths()
-        if len(paths) == 1:
-            return paths[0].name
+        export = self.export()
+        if export.count == 1:
+            return export.path(0).name
         return self.tr("{count} files: {first} to {last}").format(
-            count=len(paths), first=paths[0].name, last=paths[-1].name
+            count=export.count, first=export.path(0).name, last=export.path(export.count - 1).name
         )
 
     def _named(self) -> bool:

@@ -88,6 +88,8 @@ class Files(QObject):
             return False
         if path.suffix.lower() != project.EXTENSION:
             path = path.with_name(path.name + project.EXTENSION)
+            if path.exists() and not dialogs.ask_replace(self._window, [path]):
+                return False
         return self._save_to(path)
 
     def may_leave(self) -> bool:

@@ -35,6 +35,15 @@ class Export:
     background: str | None = None
     """In place of the document's own; "" is transparent."""
 
+    @property
+    def count(self) -> int:
+        """How many files that makes."""
+        return self.format.count(self._film({}))
+
+    def path(self, index: int) -> Path:
+        """Return where one of them is written."""
+        return self.folder / self.format.file_name(self._film({}), self.stem, index)
+
     def run(self, known: Mapping[Span, Morph], progress: Progress) -> list[Path]:
         """Write the files, all or none, and return their paths; ``known`` are exact solutions."""
         share = 0.0
@@ -48,5 +57,7 @@ class Export:
             progress(share + (1 - share) * fraction, stage)
 
         solved = solve_all(self.document, self.frames, known, solving)
-        film = DocumentFilm(self.document, self.frames, solved.get, self.background)
-        return self.format.export(film, self.folder, self.stem, self.size, writing)
+        return self.format.export(self._film(solved), self.folder, self.stem, self.size, writing)
+
+    def _film(self, solved: Mapping[Span, Morph]) -> DocumentFilm:
+        return DocumentFilm(self.document, self.frames, solved.get, self.background)

@@ -23,8 +23,14 @@ class AnimationFormat:
     suffix = ".png"
     paints = True
     """Size and background mean something to it."""
-    numbered = False
-    """It is one file, whatever the frames."""
+
+    def count(self, film: Film) -> int:
+        """Return one: it is a single file, whatever the frames."""
+        return 1
+
+    def file_name(self, film: Film, stem: str, index: int) -> str:
+        """Return what it is called."""
+        return f"{stem}{self.suffix}"
 
     def export(
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress
@@ -33,7 +39,7 @@ class AnimationFormat:
         pictures = film.pictures
         if not pictures:
             raise FileError("There is no frame to export.")
-        name = f"{stem}{self.suffix}"
+        name = self.file_name(film, stem, 0)
         with staging(folder) as draft:
             with (draft / name).open("wb") as file:
                 writer = ApngWriter(file, len(pictures), film.fps)

@@ -49,6 +49,16 @@ class DocumentFilm:
             track for layer in self.document.layers if layer.visible for track in self._of(layer)
         ]
 
+    @property
+    def track_count(self) -> int:
+        """How many meshes that are; each span has a frame of its own."""
+        ends = [
+            [layer.span_at(frame)[0] for frame in self.frames]
+            for layer in self.document.layers
+            if layer.visible
+        ]
+        return sum(last - first + 1 for first, last in ends)
+
     def picture(self, frame: int) -> Picture:
         """Return one frame."""
         picture = picture_at(self.document, frame, self.morph_of)

@@ -11,4 +11,4 @@ from core.io.exporters.vertices import VERTICES, VertexFormat
 ExportFormat = SequenceFormat | VertexFormat
 FORMATS: tuple[ExportFormat, ...] = (SVG, VERTICES)
 
-__all__ = ["FORMATS", "SVG", "VERTICES", "ExportFormat", "Film", "Size", "Track"]
+__all__ = ["FORMATS", "SVG", "VERTICES", "ExportFormat", "Film", "SequenceFormat", "Size", "Track"]

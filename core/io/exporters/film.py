@@ -35,6 +35,10 @@ class Film(Protocol):
     """Frames to export; they are computed when they are asked for."""
 
     @property
+    def frames(self) -> tuple[int, int]:
+        """The first and the last frame."""
+
+    @property
     def pictures(self) -> Sequence[Picture]:
         """Every frame as it is seen."""
 
@@ -45,3 +49,7 @@ class Film(Protocol):
     @property
     def tracks(self) -> Sequence[Track]:
         """The meshes that make the frames."""
+
+    @property
+    def track_count(self) -> int:
+        """How many there are, which is known before any is solved."""

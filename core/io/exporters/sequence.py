@@ -35,11 +35,15 @@ def export_sequence(
     with staging(folder) as draft:
         for i, picture in enumerate(pictures):
             progress(i / len(pictures), f"Frame {i + 1} of {len(pictures)}")
-            name = f"{stem}-{picture.frame:04.0f}{suffix}"
+            name = _numbered(stem, picture.frame, suffix)
             write(picture, draft / name)
             names.append(name)
         progress(1.0, "Done")
     return [folder / name for name in names]
+
+
+def _numbered(stem: str, frame: float, suffix: str) -> str:
+    return f"{stem}-{frame:04.0f}{suffix}"
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,15 @@ class SequenceFormat:
     write: Write
     paints = True
     """Size and background mean something to it."""
-    numbered = True
-    """It is one file a frame."""
+
+    def count(self, film: Film) -> int:
+        """Return how many files a film makes."""
+        first, last = film.frames
+        return last - first + 1
+
+    def file_name(self, film: Film, stem: str, index: int) -> str:
+        """Return what one of these files is called."""
+        return _numbered(stem, film.frames[0] + index, self.suffix)
 
     def export(
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress

@@ -50,8 +50,15 @@ class VertexFormat:
     suffix = ".npz"
     paints = False
     """Size and background mean nothing to it."""
-    numbered = False
-    """It is not one file a frame."""
+
+    def count(self, film: Film) -> int:
+        """Return how many files a film makes."""
+        return film.track_count
+
+    def file_name(self, film: Film, stem: str, index: int) -> str:
+        """Return what one of these files is called."""
+        number = f"-{index + 1}" if film.track_count > 1 else ""
+        return f"{stem}{number}{self.suffix}"
 
     def export(
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress
@@ -69,9 +76,7 @@ class VertexFormat:
                     progress((done + k) / total, f"Mesh {i + 1} of {len(tracks)}")
                     positions.append(track.positions[k])
                 done += len(positions)
-                name = (
-                    f"{stem}{self.suffix}" if len(tracks) == 1 else f"{stem}-{i + 1}{self.suffix}"
-                )
+                name = self.file_name(film, stem, i)
                 write_vertices(
                     draft / name,
                     positions,

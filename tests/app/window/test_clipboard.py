@@ -72,6 +72,18 @@ def test_a_cut_key_is_gone_and_can_be_pasted(window: MainWindow) -> None:
     assert [(key.frame, key.outline) for key in keys(window)] == [(1, SQUARE), (12, LEANING)]
 
 
+def test_the_key_that_was_copied_is_the_one_cut_wherever_the_playhead_is(
+    window: MainWindow,
+) -> None:
+    window.workspace.playhead.move_to(25)
+    window.workspace.selection.select_key(1, 0)
+    press(window, "Ctrl+X")
+    assert [key.outline for key in keys(window)] == [LEANING]
+    window.workspace.playhead.move_to(40)
+    press(window, "Ctrl+V")
+    assert [key.outline for key in keys(window)] == [LEANING, SQUARE]
+
+
 def test_a_key_is_pasted_into_another_layer_with_marks_proposed(window: MainWindow) -> None:
     document = window.workspace.session.document
     other = Layer(2, "Other", (Keyframe(1, LEANING, MARKS[:1]),), ("a",))

@@ -29,7 +29,7 @@ def recovery(parent: QWidget) -> object:
 
 
 def replacing(parent: QWidget) -> object:
-    return dialogs.ask_replace(parent, 3, Path("fish"))
+    return dialogs.ask_replace(parent, [Path("fish") / f"{i}.png" for i in range(3)])
 
 
 def answered(question: Question, qtbot: QtBot, act: Callable[[QMessageBox], None]) -> object:

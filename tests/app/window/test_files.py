@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,7 @@ from app.main_window import MainWindow
 from app.menus import RECENT
 from core.errors import SolveError
 from core.io import importers, project
+from core.io.exporters import SequenceFormat
 from core.model import Document, Keyframe, Layer, Outline
 from core.model.edits import add_layer
 from tests.app.window.conftest import Artist, press
@@ -65,12 +67,28 @@ def test_the_title_tells_unsaved_work(window: MainWindow, artist: Artist, tmp_pa
 def test_save_asks_only_the_first_time_and_save_as_always(
     window: MainWindow, artist: Artist, tmp_path: Path
 ) -> None:
-    artist["save"] = tmp_path / "one"
+    artist["save"] = tmp_path / "one.betwixt"
     for keys in ("Ctrl+S", "Ctrl+S", "Ctrl+Shift+S"):
         draw(window)
         press(window, keys)
     assert artist.asked == ["save", "save"]
     assert project.load(tmp_path / "one.betwixt") == window.workspace.session.document
+
+
+def test_a_name_without_its_ending_replaces_a_project_only_when_agreed_to(
+    window: MainWindow, artist: Artist, tmp_path: Path
+) -> None:
+    taken = tmp_path / "one.betwixt"
+    taken.write_text("precious")
+    draw(window)
+    artist["save"], artist["replace"] = tmp_path / "one", False
+    press(window, "Ctrl+S")
+    assert artist.asked == ["save", "replace"]
+    assert taken.read_text() == "precious"
+    assert window.workspace.session.dirty
+    artist["replace"] = True
+    press(window, "Ctrl+S")
+    assert project.load(taken) == window.workspace.session.document
 
 
 def test_a_folder_that_refuses_leaves_the_work_unsaved_and_offers_another_place(
@@ -211,6 +229,16 @@ def test_work_that_is_not_recovered_is_deleted_or_offered_again(
 
 
 # -- importing -------------------------------------------------------------------------------------
+
+
+def test_a_drawing_that_the_program_is_started_with_is_imported(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    path = tmp_path / "ball.svg"
+    path.write_text(f"{TWO_SHAPES.splitlines()[0]}<circle id='ball' cx='9' cy='9' r='8'/></svg>")
+    window.beginning.open_first(path, welcome=True)
+    assert [layer.name for layer in window.workspace.session.document.layers] == ["ball"]
+    assert not window.beginning.welcoming
 
 
 def test_one_shape_into_an_empty_project_needs_no_question(
@@ -443,6 +471,43 @@ def test_files_that_exist_are_replaced_only_when_agreed_to(
     QTest.mouseClick(export.go, LEFT)
     qtbot.waitUntil(lambda: export.faces.currentIndex() == DONE)
     assert old.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_meshes_of_several_layers_are_replaced_only_when_agreed_to(
+    export: ExportDialog, artist: Artist, tmp_path: Path, qtbot: QtBot
+) -> None:
+    [layer] = moving().layers
+    document = replace(moving(), layers=(layer, replace(layer, id=2), replace(layer, id=3)))
+    export.form._subject = replace(export.form._subject, document=document)
+    export.form.format.setCurrentText("Vertex frames (NumPy)")
+    assert export.form.preview.text() == "3 files: card-1.npz to card-3.npz"
+    (tmp_path / "out").mkdir()
+    old = tmp_path / "out" / "card-2.npz"
+    old.write_text("precious")
+    artist["replace"] = False
+    QTest.mouseClick(export.go, LEFT)
+    assert export.faces.currentIndex() == FORM
+    assert old.read_text() == "precious"
+    artist["replace"] = True
+    QTest.mouseClick(export.go, LEFT)
+    qtbot.waitUntil(lambda: export.faces.currentIndex() == DONE)
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        f"card-{number}.npz" for number in (1, 2, 3)
+    ]
+
+
+def test_a_million_frames_are_told_without_naming_each(
+    export: ExportDialog, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    named: list[str] = []
+    name = SequenceFormat.file_name
+    monkeypatch.setattr(
+        SequenceFormat, "file_name", lambda *asked: named.append(name(*asked)) or named[-1]
+    )
+    export.form.last.setMaximum(1_000_000)
+    export.form.last.setValue(1_000_000)
+    assert export.form.preview.text() == "1000000 files: card-0001.png to card-1000000.png"
+    assert len(named) < 10
 
 
 def test_a_cancelled_export_leaves_nothing_and_shows_the_form_again(

@@ -43,6 +43,11 @@ def names(folder: Path) -> list[str]:
 class Film:
     pictures: Sequence[Picture] = [picture(frame) for frame in (3, 4, 5)]
     tracks: Sequence[Track] = ()
+    frames = (3, 5)
+
+    @property
+    def track_count(self) -> int:
+        return len(self.tracks)
 
 
 # -- sequences ---------------------------------------------------------------------------------
