@@ -130,7 +130,7 @@ class Ruler(TimeWidget):
         painter.drawLine(QPointF(0, base + 0.5), QPointF(self.width(), base + 0.5))
 
     def _paint_seconds(self, painter: QPainter, first: int, last: int) -> None:
-        """Write the time of whole seconds, counted from the first frame."""
+        """Write the time of whole seconds, from the first frame, beside where a playhead goes."""
         fps, origin = self.workspace.session.document.fps, self.workspace.playhead.lowest
         step = step_for(self.view.scale.pixels * fps, SECOND_ROOM)
         painter.setPen(QColor(colours().muted))
@@ -138,8 +138,8 @@ class Ruler(TimeWidget):
         until = floor((last - origin) / fps)
         for second in multiples(floor((first - origin) / fps), until, step, 0):
             x = self.view.scale.x(origin + second * fps)
-            box = QRectF(x - SECOND_ROOM / 2, RANGE_HEIGHT - 2, SECOND_ROOM, 12)
-            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self.tr("{} s").format(second))
+            box = QRectF(x + 4, RANGE_HEIGHT - 2, SECOND_ROOM, 12)
+            painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, self.tr("{} s").format(second))
 
     def _paint_head(self, painter: QPainter) -> None:
         """Draw the head of the playhead, with its frame."""
