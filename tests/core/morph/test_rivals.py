@@ -1,10 +1,13 @@
-"""Rivals are compared by sketches of themselves where their outlines have very many vertices."""
+"""Which of several rivals is taken; they are compared by sketches where outlines are very fine."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import core
 from core.errors import SolveError
 from core.model import Recipe
 from core.model.outline import Array
@@ -79,6 +82,12 @@ def test_ways_that_contradict_themselves_are_passed_over() -> None:
         choose(ways[:1], FRAMES, Recipe(), unwatched)
 
 
+def test_a_way_whose_first_map_folds_wins_by_what_sliding_makes_of_it(shared_data: Path) -> None:
+    shapes = np.load(shared_data / "mpeg7_outlines.npz")
+    source, target = (shapes[name].astype(float) for name in ("lizard-08", "lizard-09"))
+    assert core.solve(source, target).report.distortion_mean < 3  # tail to tail; else above 5
+
+
 def test_a_sketch_that_would_cross_itself_is_not_used() -> None:
     """Every fifth vertex of this disc lies far outside on the wrong side."""
     turned = disc(COUNT).copy()
@@ -86,3 +95,11 @@ def test_a_sketch_that_would_cross_itself_is_not_used() -> None:
     assert rivals._sketched(([disc(COUNT)], [turned])) is None
     assert rivals._sketched(([disc(COUNT)], [disc(COUNT)])) is not None
     assert rivals._sketched(([disc(40)], [disc(40)])) is None
+
+
+def test_what_matches_nearly_as_well_upright_is_not_turned_upside_down() -> None:
+    """A one has its foot where a seven has its bar, and both are bent the same way round."""
+    one = [(4, 0), (6, 0), (6, 9), (8.5, 9), (8.5, 10.5), (1.5, 10.5), (1.5, 9), (4, 9)]
+    one += [(4, 2.2), (1.8, 2.8), (1.8, 1.2)]
+    seven = [(1, 0), (9, 0), (9, 1.2), (4.6, 10.5), (2.6, 10.5), (6.8, 1.7), (1, 1.7)]
+    assert abs(core.solve(np.array(one), np.array(seven)).angle) < np.pi / 6
