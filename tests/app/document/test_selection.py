@@ -6,7 +6,10 @@ import gc
 from collections.abc import Callable
 
 import numpy as np
+from PySide6.QtWidgets import QApplication
 
+from app.document.selection import Selection
+from app.document.session import Session
 from app.workspace import Workspace
 from core.model import Document, Outline
 from core.model.edits import add_layer, delete_nodes, move_nodes, remove_layer, remove_marks
@@ -51,15 +54,16 @@ def test_undo_goes_back_to_the_layer_that_it_changes(open_workspace: OpenWorkspa
     assert selection.layer.id == 1
 
 
-def test_a_drag_keeps_no_document_alive_for_its_selection(open_workspace: OpenWorkspace) -> None:
-    space = open_workspace(a_document())
-    space.session.begin("Move")
+def test_a_drag_keeps_no_document_alive_for_its_selection(qapp: QApplication) -> None:
+    session = Session(a_document())  # without others who look at documents in the background
+    selection = Selection(session)
+    drag = session.begin("Move")
     for step in np.linspace(0, 9, 50):
-        space.session.apply("", move_nodes, 1, 0, 0, [0], (step, 0))
-    space.session.commit()
+        drag.apply(move_nodes, 1, 0, 0, [0], (step, 0))
+    drag.commit()
     gc.collect()
-    space.session.apply("", move_nodes, 1, 0, 0, [0], (1, 0))
-    assert len(space.selection._kept) <= 4
+    session.apply("", move_nodes, 1, 0, 0, [0], (1, 0))
+    assert len(selection._kept) <= 4
 
 
 def test_another_document_starts_with_a_selection_of_its_own(open_workspace: OpenWorkspace) -> None:
