@@ -26,7 +26,7 @@ from core.progress import Watch
 
 GOOD = 1.3
 """Mean distortion that is as little as can be expected of a rival."""
-TURNING = 0.8
+TURNING = 0.85
 """What half a turn adds to the cost of a map, as a fraction of it."""
 ALIKE = 0.05
 """Misfit below which correspondences hardly differ. Above, twice the misfit costs √2 times more."""
