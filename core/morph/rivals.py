@@ -32,7 +32,7 @@ ALIKE = 0.05
 """Misfit below which correspondences hardly differ. Above, twice the misfit costs √2 times more."""
 SLIDING, SLIDES = 1.12, 8
 """Mean distortion from which on the boundary may slide, and how often."""
-WORTH = 0.04
+WORTH = 0.03
 """What a rival must save by sliding if it is to slide again."""
 MENDABLE = 20.0
 """What a triangle counts at most: mending will put right what is worse, or folded."""
