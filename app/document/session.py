@@ -11,6 +11,7 @@ from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from core.errors import MorphError
 from core.model import Document
+from core.model.edits import require_locks_kept
 
 
 class Session(QObject):
@@ -82,10 +83,12 @@ class Session(QObject):
     def _edited(self, document: Document, edit: Callable[[Document], Document]) -> Document:
         """Return the document after an edit; if that is refused, say why and keep what is."""
         try:
-            return edit(document)
+            edited = edit(document)
+            require_locks_kept(document, edited)
         except MorphError as error:
             self.failed.emit(error)
             return self._document
+        return edited
 
     def begin(self, text: str) -> Drag:
         """Start a drag, named for the Edit menu."""

@@ -55,6 +55,7 @@ class LayerSection(Section):
         self.setVisible(layer is not None)
         if layer is not None:
             self.set_title(self.tr("Layer “{}”").format(layer.name))
+            self.set_locked(layer.locked)
             self.fill.show_value(layer.style.fill)
             self.stroke.show_value(layer.style.stroke)
             self.stroke_width.show_value(layer.style.stroke_width)
@@ -71,7 +72,7 @@ class LayerSection(Section):
         ]
         self.carrier.offer([(self.tr("Nothing"), None), *others])
         self.carrier.show_value(layer.carrier)
-        self.carrier.setEnabled(not layer.locked and bool(others))
+        self.carrier.setEnabled(bool(others))
 
     def _hang(self, carrier: int | None) -> None:
         layer = self.workspace.selection.layer

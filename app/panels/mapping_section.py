@@ -84,6 +84,7 @@ class MappingSection(Section):
         if layer is None:
             return
         recipe = layer.recipe
+        self.set_locked(layer.locked)
         self.method.show_value(recipe.method)
         self.density.show_value(recipe.density)
         self.material.show_value(recipe.material)

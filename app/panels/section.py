@@ -64,6 +64,10 @@ class Section(QWidget):
         """Add a widget over the full width."""
         self._grid.addWidget(widget, self._grid.rowCount(), 0, 1, 2)
 
+    def set_locked(self, locked: bool) -> None:
+        """Show whether the layer can be changed."""
+        self._body.setEnabled(not locked)
+
     def begin_drag(self, text: str) -> None:
         """Begin a drag of the session, for a field that tells when it ends."""
         self._drag = self.workspace.session.begin(text)

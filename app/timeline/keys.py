@@ -6,8 +6,7 @@ from PySide6.QtCore import QCoreApplication
 
 from app.timeline.rows import Place
 from app.workspace import Workspace
-from core.errors import EditError
-from core.model import Easing, Layer
+from core.model import Easing
 from core.model.edits import move_keyframe, remove_keyframe, set_easing, set_passing
 
 
@@ -27,7 +26,7 @@ def step_key(workspace: Workspace, direction: int) -> None:
 def delete_key(workspace: Workspace) -> None:
     """Delete the chosen key."""
     layer = workspace.selection.layer
-    if layer is not None and not _locked(workspace, layer):
+    if layer is not None:
         key = workspace.selection.key
         workspace.session.apply(_tr("Delete keyframe"), remove_keyframe, layer.id, key)
 
@@ -35,28 +34,27 @@ def delete_key(workspace: Workspace) -> None:
 def nudge_key(workspace: Workspace, frames: int) -> None:
     """Move the chosen key in time; nudges in a row are one undo step."""
     layer = workspace.selection.layer
-    if layer is None or _locked(workspace, layer):
+    if layer is None:
         return
     key = workspace.selection.key
     least, most = layer.room(key)
     least = max(least, workspace.playhead.lowest)
     frame = min(max(layer.keyframes[key].frame + frames, least), most)
     gesture = ("nudge", layer.id, key)
-    workspace.session.amend(gesture, _tr("Move keyframe"), move_keyframe, layer.id, key, int(frame))
-    workspace.playhead.move_to(frame)
+    text, move = _tr("Move keyframe"), (layer.id, key, int(frame))
+    if workspace.session.amend(gesture, text, move_keyframe, *move):
+        workspace.playhead.move_to(frame)
 
 
 def ease(workspace: Workspace, place: Place, easing: Easing) -> None:
     """Set the timing of a span."""
-    if not _locked(workspace, workspace.session.document.layer(place[0])):
-        workspace.session.apply(_tr("Change easing"), set_easing, *place, easing)
+    workspace.session.apply(_tr("Change easing"), set_easing, *place, easing)
 
 
 def let_pass(workspace: Workspace, place: Place, passes: bool) -> None:
     """Let the motion pass through a key, or end there and start anew."""
-    if not _locked(workspace, workspace.session.document.layer(place[0])):
-        text = _tr("Pass through keyframe") if passes else _tr("End motion at keyframe")
-        workspace.session.apply(text, set_passing, *place, passes)
+    text = _tr("Pass through keyframe") if passes else _tr("End motion at keyframe")
+    workspace.session.apply(text, set_passing, *place, passes)
 
 
 def play_only(workspace: Workspace, place: Place) -> None:
@@ -73,14 +71,3 @@ def choose_layer(workspace: Workspace, up: int) -> None:
     if current is not None:
         index = min(max(layers.index(current) + up, 0), len(layers) - 1)
         workspace.selection.select_layer(layers[index].id)
-
-
-def _locked(workspace: Workspace, layer: Layer) -> bool:
-    """Return whether a layer is locked; if it is, say so."""
-    if layer.locked:
-        error = EditError(
-            _tr("Layer “{}” is locked.").format(layer.name),
-            hint=_tr("Unlock it with the padlock beside its name."),
-        )
-        workspace.session.failed.emit(error)
-    return layer.locked

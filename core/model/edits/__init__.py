@@ -25,6 +25,7 @@ from core.model.edits.layers import (
     update_document,
     update_layer,
 )
+from core.model.edits.locks import require_locks_kept
 from core.model.edits.marks import (
     add_mark,
     move_mark,
@@ -54,6 +55,7 @@ __all__ = [
     "remove_marks",
     "reorder_layer",
     "replace_outline",
+    "require_locks_kept",
     "set_easing",
     "set_handles",
     "set_passing",
