@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
@@ -59,6 +60,7 @@ class _Parser(argparse.ArgumentParser):
     def __init__(self, **options: object) -> None:
         options.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
         super().__init__(**options)  # type: ignore[arg-type]
+        self._negative_number_matcher = re.compile(r"-\d")  # of frames, too, as in -3-2
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong, and where to read on."""

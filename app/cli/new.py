@@ -97,9 +97,9 @@ def run(options: Namespace) -> int:
     path = options.file
     if path.suffix != project.EXTENSION:
         path = path.with_name(path.name + project.EXTENSION)
-    project.save(document, path)
     if not options.mirror and _better_mirrored(document):
         complain("Note: the target matches far better mirrored. Use --mirror to mirror it.")
+    project.save(document, path)  # last, so that an interruption leaves nothing
     print(f"{path}: {source.name} becomes {target.name} in {options.frames} frames")
     return OK
 

@@ -44,13 +44,17 @@ def background(text: str) -> str:
 
 
 def frame_rate(text: str) -> float:
-    """Read a positive number of frames a second."""
+    """Read how many frames a second there are."""
+    from core.model.structure import LEAST_RATE, MOST_RATE
+
     try:
         rate = float(text)
     except ValueError:
         rate = 0.0
-    if not 0 < rate <= 1000:
-        raise ArgumentTypeError(f"{text!r} is no frame rate; it lies above 0 and up to 1000")
+    if not LEAST_RATE <= rate <= MOST_RATE:
+        raise ArgumentTypeError(
+            f"{text!r} is no frame rate; it lies between {LEAST_RATE} and {MOST_RATE}"
+        )
     return rate
 
 

@@ -28,7 +28,7 @@ class FrameRateField(CalmWheel, QComboBox):
         self.addItems([str(fps) for fps in USUAL])
         self.setCompleter(None)  # who types 6 does not mean 60
         self._session = session
-        self._shown = 0.0
+        self._shown, self._told = 0.0, ""
         self.activated.connect(self._apply)
         self.lineEdit().editingFinished.connect(self._apply)
         session.changed.connect(self._show)
@@ -37,9 +37,12 @@ class FrameRateField(CalmWheel, QComboBox):
     def _show(self, document: Document) -> None:
         if document.fps != self._shown:  # else leave alone what is being typed
             self._shown = document.fps
-            self.setEditText(QLocale().toString(document.fps, "g", 6))
+            self._told = QLocale().toString(document.fps, "g", 6)
+            self.setEditText(self._told)
 
     def _apply(self) -> None:
+        if self.currentText() == self._told:  # nothing was typed, and this may be rounded
+            return
         fps, understood = QLocale().toDouble(self.currentText())
         if understood and LEAST <= fps <= MOST:
             self._session.apply(self.tr("Change frame rate"), update_document, fps=fps)

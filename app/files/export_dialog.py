@@ -133,7 +133,9 @@ class ExportDialog(QDialog):
         super().closeEvent(event)
 
     def _make_widgets(self) -> None:
-        self.problem = QLabel(wordWrap=True, objectName="problem")
+        self.problem = QLabel(
+            wordWrap=True, objectName="problem", textFormat=Qt.TextFormat.PlainText
+        )
         self.problem.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.problem.setAccessibleName(self.tr("What went wrong"))
         self.go = QPushButton(self.tr("&Export"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QColor, QPixmap
 from PySide6.QtWidgets import (
     QColorDialog,
@@ -169,7 +169,7 @@ class ExportForm(QWidget):
         self.folder.setMinimumWidth(320)
         self.browse = QPushButton(self.tr("&Browse…"))
         self.stem = QLineEdit(accessibleName=self.tr("Name of the files"))
-        self.preview = QLabel(wordWrap=True)
+        self.preview = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
 
     def _lay_out(self) -> None:
         form = QFormLayout(self)

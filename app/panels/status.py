@@ -28,10 +28,10 @@ class StatusStrip(QStatusBar):
         self._workspace = workspace
         self.setSizeGripEnabled(False)
         self.setContentsMargins(10, 0, 10, 0)
-        self.hint = QLabel()
+        self.hint = QLabel(textFormat=Qt.TextFormat.PlainText)
         self.hint.setAccessibleName(self.tr("What the next click does"))
         self.hint.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.stage = QLabel()
+        self.stage = QLabel(textFormat=Qt.TextFormat.PlainText)
         self.bar = QProgressBar(maximum=1000, textVisible=False)
         self.bar.setAccessibleName(self.tr("Solving"))
         self.bar.setFixedSize(120, 8)

@@ -48,26 +48,45 @@ def staging(folder: Path | str) -> Iterator[Path]:
     """
     place = Path(folder)
     missing = [path for path in (place, *place.parents) if not path.exists()]
-    draft = place / f".betwixt-{secrets.token_hex(6)}"
+    hidden = place / f".betwixt-{secrets.token_hex(6)}"
+    draft, old = hidden / "new", hidden / "old"
     try:
         draft.mkdir(parents=True)
+        old.mkdir()
         yield draft
-        files = sorted(draft.iterdir())
-        for file in files:
-            if (place / file.name).is_dir():
-                raise FileError(
-                    "There is a folder of the same name.", where=Where(path=str(place / file.name))
-                )
-        for file in files:
-            os.replace(file, place / file.name)
+        _move_all(draft, place, old)
         missing = []
     except OSError as error:
         raise unwritable(place, error) from error
     finally:
-        shutil.rmtree(draft, ignore_errors=True)
+        shutil.rmtree(hidden, ignore_errors=True)
         for path in missing:
             with suppress(OSError):
                 path.rmdir()
+
+
+def _move_all(draft: Path, place: Path, old: Path) -> None:
+    """Move files to their place, and those they replace to ``old``; if one refuses, none moves."""
+    files = sorted(draft.iterdir())
+    for file in files:
+        if (place / file.name).is_dir():
+            raise FileError(
+                "There is a folder of the same name.", where=Where(path=str(place / file.name))
+            )
+    moved: list[Path] = []
+    try:
+        for file in files:
+            target = place / file.name
+            if target.exists():
+                os.replace(target, old / file.name)
+            os.replace(file, target)
+            moved.append(target)
+    except OSError:
+        for target in moved:
+            target.unlink()
+        for file in old.iterdir():
+            os.replace(file, place / file.name)
+        raise
 
 
 def unwritable(path: Path | str, error: OSError) -> FileError:

@@ -17,6 +17,10 @@ from core.model.style import Style
 from core.model.turning import MOST_TURNS, Turning
 
 MAX_FRAME = 1_000_000
+LEAST_RATE, MOST_RATE = 0.001, 1000
+"""Frames a second: no frame lasts so long, or so short, that no clock can tell."""
+LEAST_SIDE, MOST_SIDE = 0.001, 1_000_000
+"""Of the artboard: what can be told from a point, and counted in pixels."""
 COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
 
 Problem = tuple[str, str]
@@ -51,9 +55,9 @@ def carrier_problems(document: Document) -> Iterator[Problem]:
 
 def setting_problems(document: Document) -> Iterator[Problem]:
     """Yield what is wrong with a document besides its layers."""
-    yield from _positive("fps", document.fps)
+    yield from _between("fps", document.fps, LEAST_RATE, MOST_RATE)
     for i, length in enumerate(document.size):
-        yield from _positive(f"size[{i}]", length)
+        yield from _between(f"size[{i}]", length, LEAST_SIDE, MOST_SIDE)
     yield from _colour("background", document.background)
 
 
@@ -112,16 +116,14 @@ def place_problems(path: str, place: RingPoint, outline: Outline) -> Iterator[Pr
 
 def _easing(path: str, easing: Easing) -> Iterator[Problem]:
     for name in ("x1", "x2"):
-        if not 0 <= getattr(easing, name) <= 1:
-            yield f"{path}.{name}", f"{getattr(easing, name)} is not between 0 and 1"
+        yield from _between(f"{path}.{name}", getattr(easing, name), 0, 1)
     for name in ("y1", "y2"):
         if not isfinite(getattr(easing, name)):
             yield f"{path}.{name}", "not a finite number"
 
 
 def _turning(path: str, turning: Turning) -> Iterator[Problem]:
-    if not 0 <= turning.turns <= MOST_TURNS:
-        yield f"{path}.turns", f"{turning.turns} is not between 0 and {MOST_TURNS}"
+    yield from _between(f"{path}.turns", turning.turns, 0, MOST_TURNS)
 
 
 def _style(path: str, style: Style) -> Iterator[Problem]:
@@ -132,12 +134,15 @@ def _style(path: str, style: Style) -> Iterator[Problem]:
 
 
 def _recipe(path: str, recipe: Recipe) -> Iterator[Problem]:
-    least, most = LEAST_DENSITY, MOST_DENSITY
-    if not least <= recipe.density <= most:
-        yield f"{path}.density", f"{recipe.density} is not between {least} and {most}"
+    yield from _between(f"{path}.density", recipe.density, LEAST_DENSITY, MOST_DENSITY)
     yield from _positive(f"{path}.mu", recipe.mu)
     if not (isfinite(recipe.lam) and recipe.lam >= 0):
         yield f"{path}.lam", f"{recipe.lam} is not zero or positive"
+
+
+def _between(path: str, value: float, least: float, most: float) -> Iterator[Problem]:
+    if not least <= value <= most:  # nor is NaN
+        yield path, f"{value} is not between {least} and {most}"
 
 
 def _positive(path: str, value: float) -> Iterator[Problem]:

@@ -195,6 +195,11 @@ def test_render_writes_other_formats(turn: Path, form: str, files: list[str]) ->
     assert sorted(os.listdir("out")) == files
 
 
+def test_frames_before_zero_can_be_asked_for(turn: Path, folder: Path) -> None:
+    run(["render", str(turn), "--frames", "-3-2", "--format", "svg", "-o", "out"])
+    assert len(list((folder / "out").iterdir())) == 6
+
+
 def test_formats_without_pictures_have_no_size(
     turn: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -236,6 +241,18 @@ def test_ctrl_c_leaves_no_files(
 
 
 # -- check -------------------------------------------------------------------------------------
+
+
+def test_ctrl_c_while_the_note_on_mirroring_is_sought_leaves_no_project(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupt(_: object) -> bool:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("app.cli.new._better_mirrored", interrupt)
+    arguments = ["new", "bar.csv", "pole.csv", "-o", "bar"]
+    assert "nothing was written" in refused(arguments, capsys, 130)
+    assert not (folder / "bar.betwixt").exists()
 
 
 def test_check_finds_a_turning_bar_sound(turn: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -25,16 +25,17 @@ def read(data: bytes, name: str, warn: Warn) -> list[Part]:
 def _rings(lines: list[str]) -> list[Points]:
     rings: list[list[tuple[float, float]]] = [[]]
     columns: tuple[int, int] | None = None
+    headed = False
     for number, line in enumerate(lines, 1):
         cells = _cells(line)
-        if line.startswith("#"):
+        if line.lstrip().startswith("#"):
             continue
         if not cells:
             rings.append([])
             continue
         if columns is None:
-            columns = _header(cells)
-            if columns is not None:
+            if not headed and _is_header(cells):
+                columns, headed = _named(cells), True
                 continue
             columns = (0, 1)
             if len(cells) > 2:
@@ -71,12 +72,15 @@ def _decimal_commas(line: str) -> bool:
     return len(cells) > 1 and all(cell.count(",") == 1 and cell[-1] != "," for cell in cells)
 
 
-def _header(cells: list[str]) -> tuple[int, int] | None:
-    """Return the columns of x and y if the line is a header, which holds no number at all."""
-    if any(_number(cell) is not None for cell in cells):
-        return None
+def _is_header(cells: list[str]) -> bool:
+    """Whether the line holds no number at all: a title, or the names of the columns."""
+    return all(_number(cell) is None for cell in cells)
+
+
+def _named(cells: list[str]) -> tuple[int, int] | None:
+    """Return the columns that are called x and y, if there are any."""
     names = [cell.lower() for cell in cells]
-    return (names.index("x"), names.index("y")) if {"x", "y"} <= set(names) else (0, 1)
+    return (names.index("x"), names.index("y")) if {"x", "y"} <= set(names) else None
 
 
 def _point(cells: list[str], columns: tuple[int, int], line: int) -> tuple[float, float]:

@@ -18,10 +18,9 @@ def require_locks_kept(before: Document, after: Document) -> None:
         now = layers.get(layer.id)
         if not layer.locked or now is layer:
             continue
-        free = (
-            {} if now is None else {"name": now.name, "visible": now.visible, "locked": now.locked}
-        )
-        if replace(layer, **free) != now:
+        if now is None or now != replace(
+            layer, name=now.name, visible=now.visible, locked=now.locked
+        ):
             raise EditError(
                 f"Layer “{layer.name}” is locked.",
                 hint="Unlock it with the padlock beside its name to change it.",

@@ -9,6 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from app.document.session import Session
 from app.fields.frame_rate import FrameRateField
+from core.model import Document
 
 
 @pytest.fixture
@@ -38,6 +39,17 @@ def enter(field: FrameRateField, text: str) -> float:
 def test_what_is_typed_is_taken_as_it_is(field: FrameRateField, text: str, fps: float) -> None:
     assert enter(field, text) == fps
     assert field.currentText() == text
+
+
+def test_looking_at_a_rate_of_many_digits_does_not_round_it(field: FrameRateField) -> None:
+    fps = 24000 / 1001
+    field._session.replace(Document(fps=fps))
+    field.activateWindow()
+    field.setFocus()
+    assert enter(field, field.currentText()) == fps
+    field.clearFocus()
+    assert field._session.document.fps == fps
+    assert not field._session.dirty
 
 
 @pytest.mark.parametrize("text", ["0", "-1", "1000", "abc", "", "1e3", "nan"])

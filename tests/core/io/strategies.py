@@ -22,10 +22,12 @@ from core.model import (
     Turning,
 )
 from core.model.recipe import Material, Method
+from core.model.structure import LEAST_RATE, LEAST_SIDE, MOST_RATE, MOST_SIDE
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 POSITIVE = st.floats(min_value=1e-300, max_value=1e300)
 FRACTION = st.floats(0, 1)
+SIDES = st.floats(LEAST_SIDE, MOST_SIDE)
 COLOURS = st.from_regex(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?", fullmatch=True)
 
 
@@ -90,7 +92,7 @@ def documents(draw: st.DrawFn) -> Document:
         found[i] = replace(layer, carrier=draw(carriers))
     return Document(
         tuple(found),
-        draw(POSITIVE),
-        (draw(POSITIVE), draw(POSITIVE)),
+        draw(st.floats(LEAST_RATE, MOST_RATE)),
+        (draw(SIDES), draw(SIDES)),
         draw(COLOURS),
     )

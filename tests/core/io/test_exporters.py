@@ -96,6 +96,27 @@ def test_an_error_while_writing_leaves_the_folder_as_it_was(tmp_path: Path) -> N
     assert names(tmp_path) == []
 
 
+@pytest.mark.parametrize("refused", range(4))
+def test_a_folder_that_refuses_one_of_the_files_keeps_all_as_they_were(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, refused: int
+) -> None:
+    for frame in (3, 5):
+        (tmp_path / f"run-000{frame}.txt").write_text("old")
+    move, calls = os.replace, []
+
+    def replace(source: Path, target: Path) -> None:
+        calls.append(target)
+        if len(calls) == refused + 1:
+            raise PermissionError(13, "Permission denied")
+        move(source, target)
+
+    monkeypatch.setattr(os, "replace", replace)
+    with pytest.raises(FileError, match="Permission denied"):
+        export_sequence(Film.pictures, tmp_path, "run", ".txt", write_text)
+    assert names(tmp_path) == ["run-0003.txt", "run-0005.txt"]
+    assert {path.read_text() for path in tmp_path.iterdir()} == {"old"}
+
+
 def test_existing_frames_are_replaced_when_all_is_written(tmp_path: Path) -> None:
     (tmp_path / "run-0004.txt").write_text("old")
     seen = []

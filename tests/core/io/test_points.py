@@ -77,6 +77,19 @@ def test_a_header_says_which_columns_to_take(tmp_path: Path) -> None:
     assert only_ring(read(tmp_path, "a.csv", text)) == TRIANGLE
 
 
+def test_columns_are_never_guessed_among_more_than_two(tmp_path: Path) -> None:
+    text = "id,lon,lat\n" + "\n".join(f"{i},{x},{y}" for i, (x, y) in enumerate(TRIANGLE))
+    assert "Line 2: expected two numbers, found 3 columns" in refusal(tmp_path, "a.csv", text)
+
+
+@pytest.mark.parametrize(
+    "first", ["A title of some words", "  # an indented comment\n  # and another"]
+)
+def test_a_line_of_words_before_the_points_is_passed_over(tmp_path: Path, first: str) -> None:
+    text = f"{first}\n{lines(TRIANGLE, ' ')}"
+    assert only_ring(read(tmp_path, "a.txt", text)) == TRIANGLE
+
+
 def test_a_blank_line_begins_a_ring_and_a_ring_inside_is_a_hole(tmp_path: Path) -> None:
     text = "\n\n\n".join(lines(ring, ",") for ring in (TRIANGLE, HOLE, APART))
     first, second = read(tmp_path, "a.csv", text)

@@ -204,8 +204,10 @@ def test_the_file_holds_every_field_of_the_model() -> None:
         ("layers.0.name", None, "layers[0].name: Expected `str`, got `null`."),
         ("layers.0.carrier", 7, "layers[0].carrier: it hangs on itself"),
         ("layers.0.carrier", 8, "layers[0].carrier: there is no layer 8"),
-        ("fps", 0, "fps: 0.0 is not a positive number"),
-        ("size.1", -3, "size[1]: -3.0 is not a positive number"),
+        ("fps", 0, "fps: 0.0 is not between 0.001 and 1000"),
+        ("fps", 1e-12, "fps: 1e-12 is not between 0.001 and 1000"),
+        ("size.1", -3, "size[1]: -3.0 is not between 0.001 and 1000000"),
+        ("size.0", 1e12, "size[0]: 1000000000000.0 is not between 0.001 and 1000000"),
         ("background", "blue", "background: 'blue' is not a colour"),
     ],
 )
