@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
@@ -13,13 +11,18 @@ from app.panels.messages import MessageBar
 
 
 @pytest.fixture
-def bar(qtbot: QtBot) -> Iterator[MessageBar]:
+def window(qtbot: QtBot) -> QWidget:
     window = QWidget()
     qtbot.addWidget(window)
     window.resize(600, 400)
     window.show()
     qtbot.waitExposed(window)
-    yield MessageBar(window)
+    return window
+
+
+@pytest.fixture
+def bar(window: QWidget) -> MessageBar:
+    return MessageBar(window)
 
 
 def test_a_name_that_looks_like_html_is_shown_as_it_is(bar: MessageBar) -> None:

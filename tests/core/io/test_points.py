@@ -83,7 +83,7 @@ def test_columns_are_never_guessed_among_more_than_two(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "first", ["A title of some words", "  # an indented comment\n  # and another"]
+    "first", ["A title of some words", "  # a comment\n  # and another"]
 )
 def test_a_line_of_words_before_the_points_is_passed_over(tmp_path: Path, first: str) -> None:
     text = f"{first}\n{lines(TRIANGLE, ' ')}"
