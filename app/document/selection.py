@@ -98,13 +98,30 @@ class Selection(QObject):
         """
         selected = self._layer_id, self._key, self._nodes, self._mark
         self._kept = {key: kept for key, kept in self._kept.items() if kept.document() is not None}
-        self._kept[id(self._seen)] = _Kept(ref(self._seen), selected)
-        self._seen = document
+        before, self._seen = self._seen, document
+        self._kept[id(before)] = _Kept(ref(before), selected)
         kept = self._kept.get(id(document))
         if kept is not None and kept.selected != selected:
             self._layer_id, self._key, self._nodes, self._mark = kept.selected
             self.changed.emit()
+        elif kept is None:
+            self._follow_key(before, document)
         self._keep_valid(document)
+
+    def _follow_key(self, before: Document, after: Document) -> None:
+        """Stay with the keyframe where others have come or gone before it."""
+        ids = [layer.id for layer in after.layers]
+        if self._layer_id is None or self._layer_id not in ids:
+            return
+        old, layer = before.layer(self._layer_id).keyframes, after.layer(self._layer_id)
+        if len(old) == len(layer.keyframes):
+            return
+        key = layer.key_at(old[self._key].frame)
+        if key is None:  # it is gone
+            self._set(self._layer_id, min(self._key, len(layer.keyframes) - 1))
+        elif key != self._key:
+            self._key = key
+            self.changed.emit()
 
     def _start_over(self) -> None:
         self._kept.clear()

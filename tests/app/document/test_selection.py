@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from PySide6.QtWidgets import QApplication
@@ -12,7 +13,15 @@ from app.document.selection import Selection
 from app.document.session import Session
 from app.workspace import Workspace
 from core.model import Document, Outline
-from core.model.edits import add_layer, delete_nodes, move_nodes, remove_layer, remove_marks
+from core.model.edits import (
+    add_layer,
+    delete_nodes,
+    insert_keyframe,
+    move_nodes,
+    remove_keyframe,
+    remove_layer,
+    remove_marks,
+)
 from tests.app.canvas.conftest import SQUARE, a_document
 
 OpenWorkspace = Callable[..., Workspace]
@@ -52,6 +61,24 @@ def test_undo_goes_back_to_the_layer_that_it_changes(open_workspace: OpenWorkspa
     assert selection.layer.id == 2
     session.undo()
     assert selection.layer.id == 1
+
+
+def test_the_selection_stays_on_its_key_where_others_come_and_go_before_it(
+    qapp: QApplication,
+) -> None:
+    session = Session(a_document())
+    selection = Selection(session)
+    selection.select_key(1, 1)
+    selection.select_nodes(frozenset({(0, 2)}))
+    chosen, told = selection.keyframe, []
+    selection.changed.connect(lambda: told.append(selection.key))
+    session.apply("", insert_keyframe, 1, replace(chosen, frame=13))
+    assert (selection.keyframe, selection.nodes) == (chosen, {(0, 2)})
+    session.apply("", remove_keyframe, 1, 0)
+    assert (selection.keyframe, selection.nodes) == (chosen, {(0, 2)})
+    assert told == [2, 1]
+    session.apply("", remove_keyframe, 1, 1)
+    assert (selection.keyframe.frame, selection.nodes) == (13, frozenset())
 
 
 def test_a_drag_keeps_no_document_alive_for_its_selection(qapp: QApplication) -> None:

@@ -82,9 +82,7 @@ def test_columns_are_never_guessed_among_more_than_two(tmp_path: Path) -> None:
     assert "Line 2: expected two numbers, found 3 columns" in refusal(tmp_path, "a.csv", text)
 
 
-@pytest.mark.parametrize(
-    "first", ["A title of some words", "  # a comment\n  # and another"]
-)
+@pytest.mark.parametrize("first", ["A title of some words", "  # a comment\n  # and another"])
 def test_a_line_of_words_before_the_points_is_passed_over(tmp_path: Path, first: str) -> None:
     text = f"{first}\n{lines(TRIANGLE, ' ')}"
     assert only_ring(read(tmp_path, "a.txt", text)) == TRIANGLE
