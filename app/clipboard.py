@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from PySide6.QtCore import QMimeData, QObject, Signal
 from PySide6.QtGui import QGuiApplication
 
-from app.canvas.tools.edits import paste_key
 from app.commands import Commands
 from app.files.files import Files
 from app.workspace import Workspace
@@ -16,6 +15,7 @@ from core.io.exporters.svg import drawing
 from core.model import Document, Keyframe, Layer
 from core.model.edits import add_layer, remove_keyframe, update_layer
 from core.model.picture import Picture, Shape
+from core.morph.edits import paste_key
 
 SVG = "image/svg+xml"
 

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
-from app.canvas.tools.edits import delete_nodes
 from app.workspace import Workspace
 from core.errors import EditError
 from core.model import Layer
@@ -18,6 +17,7 @@ from core.model.edits import (
     set_easing,
     update_layer,
 )
+from core.morph.edits import delete_nodes
 from core.morph.scene import Span, keyframe_at
 
 if TYPE_CHECKING:

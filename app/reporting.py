@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, QTimer
 from app.canvas.canvas import Canvas
 from app.files.files import Files
 from app.jobs.solver import SpanState
+from app.jobs.urgency import Key
 from app.panels.messages import Action, MessageBar
 from app.workspace import Workspace
 from core.errors import FileError, MarkError, MorphError, OutlineError, Repair, Trouble, Where
@@ -19,9 +20,6 @@ from core.morph.scene import Span, span_of
 
 if TYPE_CHECKING:
     from core.morph.morph import Morph
-
-Key = tuple[int, int]
-"""Layer id and span index."""
 
 UNSEEN = 1e-4
 """A repair that moved less than this fraction of an outline is not worth a word."""

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QGraphicsPathItem
 from app.canvas.view import View
 from app.render.painter import colour
 from app.style import colours
+from core.geometry.orientation import orientations
 from core.model.outline import Array
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class MeshOverlay:
         ends = positions[self._pairs]
         self._edges.setData(ends[:, 0], ends[:, 1], pen=pg.mkPen(line_on(fill), width=1))
         self._edges.show()
-        folded = positions[triangles[areas(triangles, positions) <= 0]]
+        folded = positions[triangles[orientations(positions, triangles) <= 0]]
         self._folds.setVisible(len(folded) > 0)
         if len(folded):
             self._folds.setPath(_triangle_path(folded))
@@ -71,13 +72,6 @@ def edges_of(triangles: Indices) -> Indices:
     """Return (e, 2) vertex indices of the edges of (m, 3) triangles, each once."""
     sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     return np.unique(sides, axis=0)
-
-
-def areas(triangles: Indices, positions: Array) -> Array:
-    """Return (m,) twice the signed areas."""
-    a, b, c = (positions[triangles[:, i]] for i in range(3))
-    u, v = b - a, c - a
-    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
 
 
 def _triangle_path(corners: Array) -> QPainterPath:

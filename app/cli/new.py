@@ -191,7 +191,7 @@ def _extent(box: tuple[float, float, float, float]) -> float:
 def _marks(
     outlines: list[Outline], pairs: list[tuple[int, int]] | None
 ) -> list[tuple[RingPoint, RingPoint]]:
-    """Turn node numbers into places. Without any, solving finds the best cyclic shift itself."""
+    """Turn node numbers into places. Without any, the outlines' own features decide."""
     return [
         (_node(outlines[0], i, "source"), _node(outlines[1], j, "target")) for i, j in pairs or ()
     ]

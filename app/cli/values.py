@@ -5,16 +5,16 @@ from __future__ import annotations
 import re
 from argparse import ArgumentTypeError
 
-MAX_PIXELS = 16384
-
 
 def size(text: str) -> tuple[int, int]:
     """Read ``960x540``."""
+    from core.io.exporters import LONGEST_SIDE
+
     found = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text, re.IGNORECASE)
     pixels = (int(found[1]), int(found[2])) if found else (0, 0)
-    if not all(1 <= side <= MAX_PIXELS for side in pixels):
+    if not all(1 <= side <= LONGEST_SIDE for side in pixels):
         raise ArgumentTypeError(
-            f"{text!r} is not a size; write WIDTHxHEIGHT, each 1 to {MAX_PIXELS}, as in 960x540"
+            f"{text!r} is not a size; write WIDTHxHEIGHT, each 1 to {LONGEST_SIDE}, as in 960x540"
         )
     return pixels
 

@@ -27,10 +27,9 @@ from app.jobs.export import Export
 from app.jobs.solver import Solver
 from app.render.formats import BY_KEY, FORMATS
 from app.settings import Settings
+from core.io.exporters import LONGEST_SIDE
 from core.model import Document
 
-LARGEST = 16_384
-"""Pixels: the longest side of an exported picture."""
 DOCUMENT, TRANSPARENT, COLOUR = range(3)
 NOT_IN_NAMES = set('/\\:*?"<>|')
 
@@ -155,7 +154,7 @@ class ExportForm(QWidget):
         self.wide = QSpinBox(accessibleName=self.tr("Width in pixels"), suffix=" px")
         self.high = QSpinBox(accessibleName=self.tr("Height in pixels"), suffix=" px")
         for box in (self.wide, self.high):
-            box.setRange(1, LARGEST)
+            box.setRange(1, LONGEST_SIDE)
         self.linked = QToolButton(checkable=True, accessibleName=self.tr("Keep the proportions"))
         self.linked.setToolTip(self.tr("Keep the proportions"))
         set_icon(self.linked, "locked")

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import Enum
 
-from app.canvas.tools.drawing import TARGET_AFTER
-from app.canvas.tools.edits import draw_key, redraw_key
 from core.geometry.flatten import flatten
 from core.geometry.polyline import signed_area
 from core.io.importers import Part, bounds
 from core.model import Document
 from core.model.edits import add_layer, update_layer
+from core.morph.edits import TARGET_AFTER, draw_key, redraw_key
 
 TINY = 0.2
 """Smaller than this part of the artboard's height and width, an import looks lost: icons are."""

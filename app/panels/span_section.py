@@ -19,10 +19,9 @@ from app.workspace import Workspace
 from core.model import Document, Easing
 from core.model.easing import PRESETS
 from core.model.edits import move_keyframe, set_easing, set_passing, set_turning
+from core.model.structure import MAX_FRAME
 from core.model.turning import MOST_TURNS, About, Direction, Path
 from core.morph.scene import turn_of
-
-MOST_FRAMES = 1_000_000
 
 
 class KeyframeSection(Section):
@@ -30,7 +29,7 @@ class KeyframeSection(Section):
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__("", workspace, parent)
-        self.frame = NumberField(self.tr("Frame of the keyframe"), 1, MOST_FRAMES)
+        self.frame = NumberField(self.tr("Frame of the keyframe"), 1, MAX_FRAME)
         self.frame.setToolTip(self.tr("When the keyframe comes; between its neighbours"))
         self.frame.edited.connect(self._move)
         self.passes = Choice(
@@ -57,7 +56,7 @@ class KeyframeSection(Section):
         count = len(layer.keyframes)
         self.set_title(self.tr("Keyframe {} of {}").format(key + 1, count))
         least, most = layer.room(key)
-        self.frame.limit(max(least, self.workspace.playhead.lowest), min(most, MOST_FRAMES))
+        self.frame.limit(max(least, self.workspace.playhead.lowest), min(most, MAX_FRAME))
         self.frame.show_value(layer.keyframes[key].frame)
         self.frame.setEnabled(not layer.locked)
         self.passes.show_value(layer.keyframes[key].passes)

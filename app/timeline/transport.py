@@ -14,8 +14,8 @@ from app.fields.number import NumberField
 from app.icons import set_icon
 from app.timeline import keys
 from app.workspace import Workspace
+from core.model.structure import MAX_FRAME
 
-MOST_FRAMES = 1_000_000
 LOOP_ICONS = {Loop.ONCE: "once", Loop.LOOP: "loop", Loop.PING_PONG: "ping-pong"}
 
 
@@ -113,7 +113,7 @@ class Transport(QWidget):
 
     def _show_frame(self) -> None:
         playhead, fps = self._workspace.playhead, self._workspace.session.document.fps
-        self.frame.limit(playhead.lowest, MOST_FRAMES)
+        self.frame.limit(playhead.lowest, MAX_FRAME)
         self.frame.show_value(playhead.frame)
         self._time.setText(self.tr("{:.2f} s").format((playhead.frame - playhead.lowest) / fps))
 
@@ -134,7 +134,7 @@ class Transport(QWidget):
         playhead = self._workspace.playhead
         first, last = playhead.range
         self.first.limit(playhead.lowest, last)
-        self.last.limit(first, MOST_FRAMES)
+        self.last.limit(first, MAX_FRAME)
         self.first.show_value(first)
         self.last.show_value(last)
         self.everything.setEnabled(playhead.limited)
@@ -153,7 +153,7 @@ def _button(name: str, text: str, clicked: Callable[[], object] | None) -> QTool
 
 
 def _frame_field(name: str, decimals: int = 0) -> NumberField:
-    field = NumberField(name, 1, MOST_FRAMES, decimals=decimals)
+    field = NumberField(name, 1, MAX_FRAME, decimals=decimals)
     field.setFixedWidth(64)
     return field
 

@@ -123,7 +123,7 @@ def _fit_pieces(points: Array, corners: list[int], tolerance: float) -> list[Arr
     for start, end in zip(cuts, [*cuts[1:], cuts[0] + len(points)], strict=True):
         piece = points[np.arange(start, end + 1) % len(points)]
         ahead = min(look, len(piece) - 1)
-        leaving, arriving = _unit(piece[ahead] - piece[0]), _unit(piece[-1 - ahead] - piece[-1])
+        leaving, arriving = unit(piece[ahead] - piece[0]), unit(piece[-1 - ahead] - piece[-1])
         if not corners:
             leaving, arriving = _along(points, start, look), -_along(points, end, look)
         curves += fit_run(piece, leaving, arriving, tolerance)
@@ -133,7 +133,7 @@ def _fit_pieces(points: Array, corners: list[int], tolerance: float) -> list[Arr
 def _along(points: Array, index: int, look: int) -> Array:
     """Return the direction in which a ring passes a point."""
     n = len(points)
-    return _unit(points[(index + look) % n] - points[(index - look) % n])
+    return unit(points[(index + look) % n] - points[(index - look) % n])
 
 
 def fit_run(points: Array, leaving: Array, arriving: Array, tolerance: float) -> list[Array]:
@@ -153,7 +153,7 @@ def fit_run(points: Array, leaving: Array, arriving: Array, tolerance: float) ->
         u = _nearer_parameters(curve, points, u)
     cut = int(np.clip(np.argmax(miss), 2, len(points) - 3)) if len(points) > 5 else 2
     width = min(cut, len(points) - 1 - cut, max(2, len(points) // 16))
-    tangent = _unit(points[cut - width] - points[cut + width])
+    tangent = unit(points[cut - width] - points[cut + width])
     return [
         *fit_run(points[: cut + 1], leaving, tangent, tolerance),
         *fit_run(points[cut:], -tangent, arriving, tolerance),
@@ -211,7 +211,8 @@ def _off_line(points: Array) -> float:
     return float(np.abs(cross(points - points[0], chord)).max() / length)
 
 
-def _unit(vector: Array) -> Array:
+def unit(vector: Array) -> Array:
+    """Return a vector (2,) at length 1; of none, one to the right."""
     length = float(np.hypot(*vector))
     return vector / length if length > 0 else np.array([1.0, 0.0])
 

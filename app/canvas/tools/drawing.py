@@ -8,16 +8,14 @@ from PySide6.QtCore import QObject
 
 from app.canvas.moment import Role
 from app.canvas.pointer import Pointer
-from app.canvas.tools import edits as composed
 from app.canvas.tools.tool import Tool
 from app.workspace import Workspace
 from core.model import Outline, Ring, edits
+from core.morph import edits as composed
+from core.morph.edits import TARGET_AFTER
 
 if TYPE_CHECKING:
     from app.canvas.pane import Pane
-
-TARGET_AFTER = 24
-"""Frames from the last key to a target that is drawn for it."""
 
 
 class DrawingTool(Tool):

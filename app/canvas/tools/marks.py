@@ -15,7 +15,6 @@ from app.canvas.moment import Role
 from app.canvas.pins import pins_on_key
 from app.canvas.pointer import REACH, Pointer
 from app.canvas.suggestions_overlay import suggestion_at
-from app.canvas.tools import edits as composed
 from app.canvas.tools.mark_drags import DragMark, added_mark, moved_mark
 from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
 from app.style import colours
@@ -23,6 +22,7 @@ from app.workspace import Workspace
 from core.geometry.places import nearest_place
 from core.model import Layer, Outline, RingPoint, edits
 from core.model.outline import Array
+from core.morph import edits as composed
 from core.morph.layer_match import Suggestion
 from core.morph.suggest import snap
 

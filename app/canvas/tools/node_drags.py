@@ -8,11 +8,11 @@ import numpy as np
 
 from app.canvas.node_hits import HandleHit, Node, smooth_nodes
 from app.canvas.pointer import Pointer
-from app.canvas.tools import edits as composed
 from app.canvas.tools.tool import Apply
 from app.document.selection import Selection
 from core.model import Outline, edits
 from core.model.outline import Array
+from core.morph import edits as composed
 
 
 @dataclass

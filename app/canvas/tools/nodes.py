@@ -19,13 +19,13 @@ from app.canvas.node_hits import (
     paint_nodes,
 )
 from app.canvas.pointer import REACH, Pointer
-from app.canvas.tools import edits as composed
 from app.canvas.tools.node_drags import Marquee, MoveHandle, MoveNodes
 from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
 from app.style import colours
 from app.workspace import Workspace
 from core.model import Outline, RingPoint, edits
 from core.model.outline import Array
+from core.morph import edits as composed
 
 if TYPE_CHECKING:
     from app.canvas.pane import Pane

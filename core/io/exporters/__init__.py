@@ -3,7 +3,7 @@
 PNG and animations need Qt to paint; ``app.render.formats`` adds them.
 """
 
-from core.io.exporters.film import Film, Size, Track
+from core.io.exporters.film import LONGEST_SIDE, Film, Size, Track
 from core.io.exporters.sequence import SequenceFormat
 from core.io.exporters.svg import SVG
 from core.io.exporters.vertices import VERTICES, VertexFormat
@@ -11,4 +11,14 @@ from core.io.exporters.vertices import VERTICES, VertexFormat
 ExportFormat = SequenceFormat | VertexFormat
 FORMATS: tuple[ExportFormat, ...] = (SVG, VERTICES)
 
-__all__ = ["FORMATS", "SVG", "VERTICES", "ExportFormat", "Film", "SequenceFormat", "Size", "Track"]
+__all__ = [
+    "FORMATS",
+    "LONGEST_SIDE",
+    "SVG",
+    "VERTICES",
+    "ExportFormat",
+    "Film",
+    "SequenceFormat",
+    "Size",
+    "Track",
+]

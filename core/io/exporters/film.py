@@ -11,6 +11,8 @@ from core.model.picture import Picture
 
 Size = tuple[int, int]
 """Width and height in pixels."""
+LONGEST_SIDE = 16_384
+"""Of an exported picture, in pixels."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.canvas.mesh_overlay import areas, edges_of
+from app.canvas.mesh_overlay import MeshOverlay, edges_of
 from app.canvas.moment import Role
 from app.canvas.pane import Pane
 from app.jobs.inspector import Standing
@@ -19,6 +19,7 @@ from core.errors import MarkError, OutlineError, Where
 from core.model import Document, Outline, Style
 from core.model.easing import HOLD, Easing
 from core.model.edits import add_layer, move_nodes, set_easing, update_layer
+from core.morph.quality import folds
 from core.progress import Progress
 from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document, fan
 from tests.app.eye import PLACE, Eye
@@ -331,9 +332,12 @@ def test_folded_triangles_are_filled_in_the_error_colour(open_canvas):
     assert count(image(hand.pane(TARGET)), colours().error) > 50
 
 
-def test_areas_tell_folds_by_their_sign():
-    positions = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    assert areas(np.array([[0, 1, 2], [0, 2, 1]]), positions).tolist() == [1.0, -1.0]
+def test_folds_are_shown_as_exactly_as_the_verdict_counts_them(hand: Hand):
+    overlay, step = MeshOverlay(hand.pane(SOURCE).view, 99), 2.0**-53
+    sliver = np.array([[0.5 - 40 * step, 0.5 - 39 * step], [12.0, 12.0], [24.0, 24.0]])
+    for triangle in (np.array([[0, 1, 2]]), np.array([[0, 2, 1]])):
+        overlay.show_mesh(triangle, sliver, "#ffffff")
+        assert overlay._folds.isVisible() == (len(folds(sliver, triangle)) > 0)
 
 
 def test_an_error_is_ringed_on_its_side_until_it_is_cleared(hand: Hand):

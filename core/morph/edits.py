@@ -1,4 +1,7 @@
-"""Edits that a tool composes from those of the model; each again Document → Document."""
+"""Edits that take more than the model: geometry, or marks that are proposed on a new outline.
+
+Each is a pure function Document → Document, composed of those of ``core.model.edits``.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +18,8 @@ from core.model import Document, Keyframe, Outline, Ring, RingPoint, edits
 from core.model.outline import Array
 from core.morph.suggest import mate
 
+TARGET_AFTER = 24
+"""Frames from the last key to a target that is drawn for it."""
 Nodes = frozenset[tuple[int, int]]
 """(ring, node) pairs."""
 
