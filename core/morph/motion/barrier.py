@@ -13,10 +13,13 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from core.geometry.rotation import Complex
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
+from core.progress import Watch, unwatched
 
 ARMIJO = 1e-4
 HALVINGS = 30
-MAX_STEPS = 60
+MOST_STEPS, LEAST_STEPS = 60, 8
+WORK = 1e9
+"""Cubes of held vertices, times steps, that are worth while for a frame."""
 LEFT_ALONE = 1 / 4
 """Part of its size in frames that are to be left alone below which a gap may be felt elsewhere."""
 REGULARISATION = 1e-10
@@ -47,7 +50,7 @@ class Gaps(Protocol):
 
     @property
     def weights(self) -> Array:
-        """(c,) how much the barrier of each counts; below 0 where others count it twice."""
+        """(c,) how much the barrier of each counts; below 0 to take off once what two others count."""
 
     def __call__(self, z: Complex) -> Array:
         """Return the gaps (c,) at positions z (k,)."""
@@ -60,11 +63,18 @@ class Gaps(Protocol):
         ...
 
 
-def settle(fitted: Complex, stiffness: Array, kinds: Sequence[Gaps], start: Complex) -> Complex:
+def settle(
+    fitted: Complex,
+    stiffness: Array,
+    kinds: Sequence[Gaps],
+    start: Complex,
+    watch: Watch = unwatched,
+) -> Complex:
     """Minimise (z − fitted)ᴴ K (z − fitted) + Σ w b(u(z)) from a start (k,) with open gaps.
 
     The barrier b is felt below a gap of 1 and infinite at 0 (Li et al. 2020, "Incremental potential
-    contact"). A step is Newton's where the energy is convex, Gauss and Newton's where it is not.
+    contact"). Steps are Newton's, with each gap's Hessian projected where the sum is not convex.
+    Wherever it ends, all gaps are open.
     """
     pull = np.zeros((2 * len(fitted), 2 * len(fitted)))
     pull[::2, ::2] = pull[1::2, 1::2] = 2 * stiffness
@@ -74,13 +84,14 @@ def settle(fitted: Complex, stiffness: Array, kinds: Sequence[Gaps], start: Comp
         misfit = float(np.vdot(off, stiffness @ off).real)
         return misfit + sum(float(kind.weights @ barrier(kind(z))) for kind in kinds)
 
-    z, value = start, energy(start)
-    for _ in range(MAX_STEPS):
+    z, value, convex = start, energy(start), True
+    for _ in range(steps_worth(len(fitted))):
+        watch("in-between")
         terms = [_terms(kind, z) for kind in kinds]
         gradient = pull @ (z - fitted).view(float)
         for term in terms:
             np.add.at(gradient, term.unknowns.ravel(), term.slopes.ravel())
-        direction = -_solve(pull, terms, gradient)
+        direction, convex = _direction(pull, terms, gradient, convex)
         step, slope = direction.view(complex), float(gradient @ direction)
         length = min([1.0, *(kind.free_way(z, step) for kind in kinds)])
         if -slope < CONVERGED:
@@ -92,8 +103,16 @@ def settle(fitted: Complex, stiffness: Array, kinds: Sequence[Gaps], start: Comp
             length /= 2
         else:
             return z
-        z, value = z + length * step, reached
+        z, value, convex = z + length * step, reached, convex and length < 1
     return z
+
+
+def steps_worth(held: int) -> int:
+    """Return how many steps are made at most between so many vertices.
+
+    The more are held the longer a step takes, as their cube: no frame may take for ever.
+    """
+    return int(np.clip(WORK / max(held, 1) ** 3, LEAST_STEPS, MOST_STEPS))
 
 
 def barrier(u: Array) -> Array:
@@ -109,19 +128,24 @@ class _Terms:
     unknowns: Indices
     slopes: Array
     """(c, 6)"""
-    squares: Array
-    """(c, 6, 6) part of the Hessian that has the sign of w."""
-    bends: Array
-    """(c, 6, 6) the other part."""
+    blocks: Array
+    """(c, 6, 6) second derivatives."""
     added: NDArray[np.bool_]
     """(c,) whether w > 0."""
 
     def add_to(self, matrix: Array, *, convex: bool) -> None:
-        """Add the Hessian to a matrix, or its part that is never negative."""
-        blocks = self.squares[self.added] if convex else self.squares + self.bends
-        unknowns = self.unknowns[self.added] if convex else self.unknowns
+        """Add the Hessian to a matrix, or but what of each term is convex."""
+        blocks, unknowns = self.blocks, self.unknowns
+        if convex:
+            blocks, unknowns = _projected(blocks[self.added]), unknowns[self.added]
         places = unknowns[:, :, None] * len(matrix) + unknowns[:, None]
         np.add.at(matrix.reshape(-1), places.ravel(), blocks.ravel())
+
+
+def _projected(blocks: Array) -> Array:
+    """Return the closest positive semidefinite matrices (c, 6, 6) to symmetric ones."""
+    values, axes = np.linalg.eigh(blocks)
+    return (axes * np.maximum(values, 0)[:, None]) @ axes.transpose(0, 2, 1)
 
 
 def _terms(kind: Gaps, z: Complex) -> _Terms:
@@ -134,24 +158,29 @@ def _terms(kind: Gaps, z: Complex) -> _Terms:
     return _Terms(
         unknowns.reshape(-1, 6),
         slope[:, None] * at.slopes,
-        bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None],
-        slope[:, None, None] * at.bends,
+        bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None]
+        + slope[:, None, None] * at.bends,
         weights > 0,
     )
 
 
-def _solve(pull: Array, terms: Sequence[_Terms], gradient: Array) -> Array:
-    try:
-        factor = _factor(pull, terms, convex=False)
-    except LinAlgError:
-        factor = _factor(pull, terms, convex=True)
-    return cast(Array, cho_solve(factor, gradient, check_finite=False))
+def _direction(
+    pull: Array, terms: Sequence[_Terms], gradient: Array, convex: bool
+) -> tuple[Array, bool]:
+    """Return a step downhill, and whether it had to be made convex, as one may know beforehand."""
+    if not convex:
+        try:
+            return _downhill(pull, terms, gradient, convex=False), False
+        except LinAlgError:
+            pass
+    return _downhill(pull, terms, gradient, convex=True), True
 
 
-def _factor(pull: Array, terms: Sequence[_Terms], *, convex: bool) -> tuple[Array, bool]:
+def _downhill(pull: Array, terms: Sequence[_Terms], gradient: Array, *, convex: bool) -> Array:
     matrix = pull.copy()
     for term in terms:
         term.add_to(matrix, convex=convex)
     if convex:
-        matrix[np.diag_indices_from(matrix)] += REGULARISATION * matrix.diagonal().max()
-    return cast(tuple[Array, bool], cho_factor(matrix.T, overwrite_a=True, check_finite=False))
+        matrix[np.diag_indices_from(matrix)] += REGULARISATION * matrix.diagonal().max(initial=0)
+    factor = cho_factor(matrix.T, overwrite_a=True, check_finite=False)
+    return cast(Array, -cho_solve(factor, gradient, check_finite=False))

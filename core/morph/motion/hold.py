@@ -19,6 +19,7 @@ from core.morph.motion.barrier import Gaps, settle
 from core.morph.motion.contact import Contact
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.guard import FoldGuard
+from core.progress import Watch, unwatched
 
 WARY = 1.2
 """How many times further than they are felt folds and contacts are watched while settling."""
@@ -114,14 +115,20 @@ class Hold:
         vertices = np.unique(np.concatenate(corners))
         return Grip(tight, vertices, self._fit.stiffness(vertices))
 
-    def __call__(self, wanted: Wanted, start: Complex, among: Indices | None = None) -> Complex:
-        """Return the settled frame (n,) from a sound start (n,).
+    def __call__(
+        self,
+        wanted: Wanted,
+        start: Complex,
+        among: Indices | None = None,
+        watch: Watch = unwatched,
+    ) -> Complex:
+        """Return the settled frame (n,) from a sound start (n,); it is sound, too.
 
         Where it folds or crosses although all that is held is open, it is settled anew with more.
         """
         grip = self._grip(self.tight(start, wanted, WARY, among))
         for _ in range(ROUNDS):
-            z = self._settled(wanted, start, grip)
+            z = self._settled(wanted, start, grip, watch)
             missing = self.tight(z, wanted, among=among) - grip.tight
             crosses = self._contact.crosses(z)
             if not missing and not crosses:
@@ -131,9 +138,9 @@ class Hold:
             elif self.margin(z, wanted) > 0:
                 start = z
             grip = self._grip(grip.tight | missing)
-        return z
+        return z if self.sound(z, wanted) else start
 
-    def _settled(self, wanted: Wanted, start: Complex, grip: Grip) -> Complex:
+    def _settled(self, wanted: Wanted, start: Complex, grip: Grip, watch: Watch) -> Complex:
         held, tight = grip.vertices, grip.tight
         kinds: tuple[Gaps, ...] = (
             self._guard.gaps(tight.triangles, held, wanted.determinants),
@@ -141,7 +148,7 @@ class Hold:
         )
         fitted = wanted.fitted[held]
         felt = [kind for kind in kinds if len(kind.corners)]
-        offset = settle(fitted, grip.stiffness, felt, start[held]) - fitted
+        offset = settle(fitted, grip.stiffness, felt, start[held], watch) - fitted
         force = np.zeros(len(start), dtype=complex)
         force[held] = grip.stiffness @ offset
         return wanted.fitted + to_complex(self._fit.solve(to_points(force)))

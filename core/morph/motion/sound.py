@@ -25,7 +25,7 @@ from core.morph.motion.gradients import determinant
 from core.morph.motion.guard import FoldGuard
 from core.morph.motion.hold import Hold, Wanted
 from core.morph.motion.series import Series
-from core.progress import Watch
+from core.progress import Watch, unwatched
 
 SURVEY = 16
 """Stretches of time between the moments at which a motion is surveyed."""
@@ -148,12 +148,14 @@ class SoundFrames:
         wanted = Wanted(to_complex(x), determinant(self._ideal(t)))
         return x, None if stretch.hold.free(wanted, stretch.pairs) else (wanted, stretch)
 
-    def _settled(self, t: float, wanted: Wanted, stretch: Stretch) -> Complex:
+    def _settled(
+        self, t: float, wanted: Wanted, stretch: Stretch, watch: Watch = unwatched
+    ) -> Complex:
         start = wanted.fitted
         if not stretch.hold.sound(start, wanted):
             nearest = min(stretch.anchors, key=lambda anchor: (abs(anchor.t - t), anchor.strain))
             start = aligned(nearest.frame, start)
-        return stretch.hold(wanted, start, stretch.pairs)
+        return stretch.hold(wanted, start, stretch.pairs, watch)
 
     # -- the survey ----------------------------------------------------------------------------
 
@@ -181,7 +183,7 @@ class SoundFrames:
             stretch = self._stretch((last, anchor) if last.t < anchor.t else (anchor, last))
             pairs = stretch.pairs if clear and stretch is not None else None
             clear = (clear and stretch is None) or self._hold.free(anchor.wanted, pairs)
-            anchors.append(anchor if clear else self._walked(anchors[-2:], anchor))
+            anchors.append(anchor if clear else self._walked(anchors[-2:], anchor, watch))
         return anchors
 
     def _plain_anchor(self, t: float) -> Anchor:
@@ -192,16 +194,17 @@ class SoundFrames:
     def _held_anchor(self, plain: Anchor, frame: Complex) -> Anchor:
         return replace(plain, frame=frame, margin=self._hold.margin(frame, plain.wanted), held=True)
 
-    def _walked(self, last: Sequence[Anchor], plain: Anchor) -> Anchor:
+    def _walked(self, last: Sequence[Anchor], plain: Anchor, watch: Watch) -> Anchor:
         """Return an anchor, settled from earlier ones."""
         wanted, latest = plain.wanted, last[-1]
         start = wanted.fitted + plain.turned * _carried_on(last, plain.t)
         if not self._hold.sound(start, wanted):
             if abs(plain.t - latest.t) > SHORTEST_STEP:
                 halfway = self._plain_anchor((latest.t + plain.t) / 2)
-                return self._walked([latest, self._walked(last, halfway)], plain)
+                walked = self._walked(last, halfway, watch)
+                return self._walked([latest, walked], plain, watch)
             start = aligned(latest.frame, wanted.fitted)
-        return self._held_anchor(plain, self._hold(wanted, start))
+        return self._held_anchor(plain, self._hold(wanted, start, watch=watch))
 
     def _lay(self, anchors: Sequence[Anchor]) -> None:
         """Carry departures from anchor to anchor."""
@@ -236,7 +239,7 @@ class SoundFrames:
             _, trouble = self._carried(t)
             if trouble is not None:
                 watch("in-between")
-                frame = self._settled(t, *trouble)
+                frame = self._settled(t, *trouble, watch)
                 found.append(self._held_anchor(self._plain_anchor(t), frame))
         return found
 

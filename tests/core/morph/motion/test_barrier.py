@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.morph.motion.barrier import barrier, settle
+from core.morph.motion.barrier import barrier, settle, steps_worth
 from core.morph.motion.contact import Distances
 from core.morph.motion.guard import TriangleGaps
 
@@ -82,3 +82,26 @@ def test_a_point_that_is_to_pass_through_an_edge_stays_on_its_side():
     assert 0 < z[0].imag - z[1].imag < 0.5
     assert z.imag.sum() == pytest.approx(-1)  # all share the way that is missing
     assert np.abs(z.real - fitted.real).max() < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_triangles_all_but_flat_are_lifted_off_their_folds(seed):
+    rng, k = np.random.default_rng(seed), 12
+    lower, along = np.arange(k - 1), np.arange(k) / k
+    start = np.concatenate([along, along + 0.5 / k + 1e-7j])
+    corners = np.concatenate(
+        [
+            np.column_stack([lower, lower + 1, lower + k]),
+            np.column_stack([lower + 1, lower + k + 1, lower + k]),
+        ]
+    )
+    strip = TriangleGaps(corners, np.full(len(corners), 1e-3), np.full(len(corners), 1e-2))
+    fitted = start.conj() + 1e-2 * rng.normal(size=(2 * k, 2)) @ [1, 1j]
+    assert 0 < strip(start).min() < 1e-3
+    assert strip(settle(fitted, np.eye(2 * k), [strip], start)).min() > 0.05
+
+
+def test_the_more_is_held_the_fewer_steps_are_made():
+    steps = [steps_worth(held) for held in (0, 100, 300, 1000, 3000)]
+    assert steps == sorted(steps, reverse=True)
+    assert steps[0] > steps[-1] > 1

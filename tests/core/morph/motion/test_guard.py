@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import core
+from core.errors import Cancelled
 from core.fem.elements import Elements
 from core.geometry.rotation import phasor
 from core.geometry.triangulation import split_chords, triangulate
+from core.morph.motion import hold
 from core.morph.motion.contact import Contact
 from core.morph.motion.fit import GradientFit
 from core.morph.motion.gradients import determinant
@@ -117,6 +119,20 @@ def twist(bar: Bar) -> np.ndarray:
 
 def test_what_is_held_has_no_fold_even_where_the_ideal_twists(bar, twist):
     assert 0 < bar.margin(bar.held(twist, bar.rest)) < REACH
+
+
+def test_a_sound_frame_is_never_exchanged_for_one_that_folds(bar, twist, monkeypatch):
+    monkeypatch.setattr(hold, "ROUNDS", 1)  # too few to hold all that would fold
+    start = bar.rest * np.exp(0.3j)
+    assert bar.margin(bar.held(2 * twist, start)) > 0
+
+
+def test_a_frame_can_be_cancelled_while_it_settles(bar, twist):
+    def stop(stage: str) -> None:
+        raise Cancelled
+
+    with pytest.raises(Cancelled):
+        bar.hold(bar.wanted(twist), bar.rest, watch=stop)
 
 
 def test_where_nothing_nears_a_fold_nothing_is_held(bar):
