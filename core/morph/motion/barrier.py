@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, cast
+from typing import ClassVar, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,13 +44,16 @@ class Derivatives:
 class Gaps(Protocol):
     """Gaps of one kind, in units of the gap below which they are felt: closed at 0."""
 
+    bent: ClassVar[bool]
+    """Whether they bend so sharply that a step which leaves that out gets nowhere."""
+
     @property
     def corners(self) -> Indices:
         """(c, 3) the vertices on which each depends, numbered among those that are held."""
 
     @property
     def weights(self) -> Array:
-        """(c,) how much the barrier of each counts; below 0 to take off once what two others count."""
+        """(c,) how much the barrier of each counts; below 0 takes off what two others count."""
 
     def __call__(self, z: Complex) -> Array:
         """Return the gaps (c,) at positions z (k,)."""
@@ -73,8 +76,8 @@ def settle(
     """Minimise (z − fitted)ᴴ K (z − fitted) + Σ w b(u(z)) from a start (k,) with open gaps.
 
     The barrier b is felt below a gap of 1 and infinite at 0 (Li et al. 2020, "Incremental potential
-    contact"). Steps are Newton's, with each gap's Hessian projected where the sum is not convex.
-    Wherever it ends, all gaps are open.
+    contact"). Steps are Newton's; at first, and where the energy is not convex, Hessians are made
+    so gap by gap: projected, or Gauss and Newton's. Wherever it ends, all gaps are open.
     """
     pull = np.zeros((2 * len(fitted), 2 * len(fitted)))
     pull[::2, ::2] = pull[1::2, 1::2] = 2 * stiffness
@@ -128,16 +131,22 @@ class _Terms:
     unknowns: Indices
     slopes: Array
     """(c, 6)"""
-    blocks: Array
-    """(c, 6, 6) second derivatives."""
+    squares: Array
+    """(c, 6, 6) part of the Hessian that has the sign of w."""
+    bends: Array
+    """(c, 6, 6) the other part."""
     added: NDArray[np.bool_]
     """(c,) whether w > 0."""
+    bent: bool
 
     def add_to(self, matrix: Array, *, convex: bool) -> None:
         """Add the Hessian to a matrix, or but what of each term is convex."""
-        blocks, unknowns = self.blocks, self.unknowns
+        blocks, unknowns = self.squares, self.unknowns
+        if self.bent or not convex:
+            blocks = blocks + self.bends
         if convex:
-            blocks, unknowns = _projected(blocks[self.added]), unknowns[self.added]
+            blocks, unknowns = blocks[self.added], unknowns[self.added]
+            blocks = _projected(blocks) if self.bent else blocks
         places = unknowns[:, :, None] * len(matrix) + unknowns[:, None]
         np.add.at(matrix.reshape(-1), places.ravel(), blocks.ravel())
 
@@ -158,9 +167,10 @@ def _terms(kind: Gaps, z: Complex) -> _Terms:
     return _Terms(
         unknowns.reshape(-1, 6),
         slope[:, None] * at.slopes,
-        bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None]
-        + slope[:, None, None] * at.bends,
+        bend[:, None, None] * at.slopes[:, :, None] * at.slopes[:, None],
+        slope[:, None, None] * at.bends,
         weights > 0,
+        kind.bent,
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -211,6 +211,7 @@ class NoContact(Contact):
 class Distances:
     """Distances of points from edges, in units of those at which they are felt."""
 
+    bent: ClassVar = False
     corners: Indices
     weights: Array
     reach: Array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -63,6 +63,7 @@ class FoldGuard:
 class TriangleGaps:
     """Areas of triangles, in units of those below which they are felt."""
 
+    bent: ClassVar = True
     corners: Indices
     weights: Array
     felt: Array
