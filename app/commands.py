@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
+from app.document.layers import toggle
 from app.workspace import Workspace
 from core.errors import EditError
 from core.model import Layer
@@ -15,7 +16,6 @@ from core.model.edits import (
     remove_keyframe,
     remove_marks,
     set_easing,
-    update_layer,
 )
 from core.morph.edits import delete_nodes
 from core.morph.scene import Span, keyframe_at
@@ -79,15 +79,7 @@ class Commands(QObject):
 
     def toggle_layer(self, state: Literal["visible", "locked"]) -> None:
         """Hide or show, lock or unlock the current layer."""
-        layer = self._layer()
-        on = not getattr(layer, state)
-        names = {
-            ("visible", True): self.tr("Show layer"),
-            ("visible", False): self.tr("Hide layer"),
-            ("locked", True): self.tr("Lock layer"),
-            ("locked", False): self.tr("Unlock layer"),
-        }
-        self._session.apply(names[state, on], update_layer, layer.id, **{state: on})
+        toggle(self._session, self._layer(), state)
 
     # -- keyframes -----------------------------------------------------------------------------
 

@@ -55,11 +55,11 @@ class Pane(QWidget):
         self._mesh = MeshOverlay(self.view, 5)
         self.suggested = SuggestedPins()
         """The suggested marks that are seen here: of a key, or in the overlay of both."""
-        self._invitation, self.tool_overlay = Invitation(self.view), ToolOverlay(self.view)
+        self.invitation, self.tool_overlay = Invitation(self.view), ToolOverlay(self.view)
         self._suggestions, self._marks = SuggestionsOverlay(self.view), MarksOverlay(self.view)
         self.trouble_rings, self.error_ring = TroubleRings(self.view), ErrorRing(self.view)
         overlays = (
-            self._invitation,
+            self.invitation,
             self.trouble_rings,
             self._suggestions,
             self._marks,
@@ -98,11 +98,6 @@ class Pane(QWidget):
         return colours().source if key <= span else colours().target
 
     @property
-    def invitation(self) -> str:
-        """What an empty pane invites to; empty when there is something to see."""
-        return self._invitation.title
-
-    @property
     def state(self) -> str:
         """What the title says about being up to date; empty when there is nothing to say."""
         return self._header.tag
@@ -118,7 +113,7 @@ class Pane(QWidget):
         self._marks.stand_back(not tool.places_marks)
         if repaint:
             self.tool_overlay.update()
-        self._invitation.make_room(tool.busy)
+        self.invitation.make_room(tool.busy)
 
     def set_focused(self, focused: bool) -> None:
         """Show whether the keys go here."""
@@ -137,7 +132,7 @@ class Pane(QWidget):
         self._show_suggestions()
         self._show_error(moment, error)
         self._show_trouble(moment)
-        self._invitation.show_text(*self._invite(moment), moment.document.background)
+        self.invitation.show_text(*self._invite(moment), moment.document.background)
         self.view.update_all()
 
     def _show_artwork(self, moment: Moment) -> None:

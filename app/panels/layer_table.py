@@ -19,6 +19,7 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 
+from app.document.layers import toggle
 from app.document.session import Session
 from app.fields.colour import paint_colour
 from app.icons import pixmap
@@ -63,11 +64,9 @@ class LayerTable(QAbstractTableModel):
         """Show or hide, lock or unlock, by a click in the first two columns."""
         layer = self._layers[index.row()]
         if index.column() == SHOWN:
-            text = self.tr("Hide layer") if layer.visible else self.tr("Show layer")
-            self._session.apply(text, update_layer, layer.id, visible=not layer.visible)
+            toggle(self._session, layer, "visible")
         elif index.column() == LOCKED:
-            text = self.tr("Unlock layer") if layer.locked else self.tr("Lock layer")
-            self._session.apply(text, update_layer, layer.id, locked=not layer.locked)
+            toggle(self._session, layer, "locked")
 
     # -- what views ask ------------------------------------------------------------------------
 

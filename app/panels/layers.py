@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.document.layers import free_name
 from app.icons import set_icon
 from app.panels.layer_table import LOCKED, NAME, SHOWN, LayerTable
 from app.style import TARGET_SIZE
@@ -69,7 +70,8 @@ class LayersPanel(QWidget):
         radius = NEW_SIZE * min(width, height)
         outline = Outline((Ring.ellipse((width / 2, height / 2), (radius, radius)),))
         frame = round(self._workspace.playhead.frame)
-        if session.apply(self.tr("Add layer"), add_layer, self._free_name(), frame, outline):
+        name = free_name(session.document)
+        if session.apply(self.tr("Add layer"), add_layer, name, frame, outline):
             self._workspace.selection.select_layer(session.document.layers[-1].id)
 
     def duplicate(self) -> None:
@@ -101,11 +103,6 @@ class LayersPanel(QWidget):
             index = session.document.layers.index(layer) + by
             if index < len(session.document.layers):
                 session.apply(text, reorder_layer, layer.id, index)
-
-    def _free_name(self) -> str:
-        names = {layer.name for layer in self._workspace.session.document.layers}
-        candidates = (self.tr("Shape {number}").format(number=n) for n in range(1, len(names) + 2))
-        return next(name for name in candidates if name not in names)
 
     def _make_buttons(self) -> tuple[QToolButton, ...]:
         buttons = []

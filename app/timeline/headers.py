@@ -6,12 +6,12 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
+from app.document.layers import toggle
 from app.icons import set_icon
 from app.style import colours
 from app.timeline.rows import ROW
 from app.workspace import Workspace
 from core.model import Document, Layer
-from core.model.edits import update_layer
 
 WIDTH = 190
 
@@ -112,15 +112,11 @@ class LayerHeader(QWidget):
 
     def _set_visible(self) -> None:
         if self._layer:
-            shown = not self._layer.visible
-            text = self.tr("Show layer") if shown else self.tr("Hide layer")
-            self._workspace.session.apply(text, update_layer, self._layer.id, visible=shown)
+            toggle(self._workspace.session, self._layer, "visible")
 
     def _set_locked(self) -> None:
         if self._layer:
-            locked = not self._layer.locked
-            text = self.tr("Lock layer") if locked else self.tr("Unlock layer")
-            self._workspace.session.apply(text, update_layer, self._layer.id, locked=locked)
+            toggle(self._workspace.session, self._layer, "locked")
 
 
 def _toggle(parent: QWidget) -> QToolButton:

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject
 from app.canvas.moment import Role
 from app.canvas.pointer import Pointer
 from app.canvas.tools.tool import Tool
+from app.document.layers import free_name
 from app.workspace import Workspace
 from core.model import Outline, Ring, edits
 from core.morph import edits as composed
@@ -77,12 +78,6 @@ class DrawingTool(Tool):
         return text.format(frame=frame, name=layer.name)
 
     def _add_layer(self, outline: Outline, frame: int) -> None:
-        names = {layer.name for layer in self.session.document.layers}
-        number = next(n for n in range(1, len(names) + 2) if self._layer_name(n) not in names)
-        text = self.tr("Draw layer")
-        name = self._layer_name(number)
+        text, name = self.tr("Draw layer"), free_name(self.session.document)
         if self.session.apply(text, edits.add_layer, name, frame, outline):
             self.selection.select_layer(self.session.document.layers[-1].id)
-
-    def _layer_name(self, number: int) -> str:
-        return self.tr("Shape {number}").format(number=number)

@@ -293,13 +293,13 @@ def test_a_hidden_layer_is_not_said_to_be_out_of_date(hand: Hand):
 def test_an_empty_document_invites_to_draw(open_canvas):
     hand = open_canvas(Document())
     for role, words in ((SOURCE, "Draw the source outline here"), (TARGET, "Then the target")):
-        assert hand.pane(role).invitation == words
+        assert hand.pane(role).invitation.title == words
 
 
 def test_a_single_key_invites_to_draw_the_target(open_canvas):
     hand = open_canvas(a_document(target=False))
-    assert hand.pane(TARGET).invitation == "Draw or import the target here"
-    assert hand.pane(SOURCE).invitation == ""
+    assert hand.pane(TARGET).invitation.title == "Draw or import the target here"
+    assert hand.pane(SOURCE).invitation.title == ""
 
 
 @pytest.mark.parametrize("role", [SOURCE, BETWEEN, TARGET])
@@ -390,7 +390,7 @@ def test_another_document_is_shown_at_once_and_the_tool_starts_over(hand: Hand):
     hand.click(SOURCE, (100, 100))
     hand.workspace.session.replace(Document())
     QApplication.processEvents()
-    assert hand.pane(SOURCE).invitation == "Draw the source outline here"
+    assert hand.pane(SOURCE).invitation.title == "Draw the source outline here"
     assert hand.canvas.tool == "pen"
 
 
