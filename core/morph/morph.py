@@ -31,7 +31,7 @@ class Morph:
     origin: Array
     """(2,) where those coordinates have their zero."""
     unit: float
-    """Their length unit."""
+    """Their length unit, between the sizes of both ends: contact reaches as far both ways."""
 
     def __post_init__(self) -> None:
         self.rest.setflags(write=False)

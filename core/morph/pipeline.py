@@ -71,8 +71,9 @@ def solve_outlines(
     drawn = sum(len(pair.source) for pair in taken.boundaries)  # what was added follows them
     rest[:drawn] = np.concatenate([pair.source for pair in taken.boundaries])
     goal[:drawn] = np.concatenate([pair.target for pair in taken.boundaries])
-    goal_inside = here.inside(goal)
-    inbetween = _inbetween(recipe, mesh.points, goal_inside, mesh.triangles, clock.watch)
+    moving = here.amid(there)
+    ends_inside = mesh.points * (here.unit / moving.unit), moving.inside(goal)
+    inbetween = _inbetween(recipe, *ends_inside, mesh.triangles, clock.watch)
     clock.stop()
     report = Report(
         vertices=len(rest),
@@ -88,7 +89,8 @@ def solve_outlines(
         repairs=ends[0].repairs + ends[1].repairs,
         proposed=unplace_marks(taken.proposed, (source, target), ends),
     )
-    return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, here.origin, here.unit)
+    frame = moving.origin, moving.unit
+    return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, *frame)
 
 
 def _inbetween(

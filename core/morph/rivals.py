@@ -52,6 +52,10 @@ class Frame:
         """Take the coordinates of an outline."""
         return cls(end.rings[0].mean(axis=0), float(np.sqrt(end.area)))
 
+    def amid(self, other: Frame) -> Self:
+        """Return coordinates of a size midway to another's, whichever of them comes first."""
+        return replace(self, unit=float(np.sqrt(self.unit * other.unit)))
+
     def inside(self, points: Array) -> Array:
         """Return points (n, 2) in these coordinates."""
         return (points - self.origin) / self.unit

@@ -76,7 +76,7 @@ class Row:
     stages: dict[str, float]
     """The milliseconds of each stage; of the correspondence that was taken."""
     limbs_pass: bool
-    """Whether limbs must pass one another: that is why the boundary crosses itself, if it does."""
+    """Whether no way round was found for limbs: that is why the boundary crosses, if it does."""
     drifts: dict[str, Drift]
     """Our motion and the others, by name."""
     given: GivenMarks | None = None

@@ -146,7 +146,7 @@ def _crossings(rows: Sequence[Row]) -> Iterator[str]:
         for row in crossing:
             span = f"t {row.crossing[0]:.2f} to {row.crossing[-1]:.2f}"
             linear = len(row.drifts["straight paths"].crossing)
-            cause = "limbs must pass one another" if row.limbs_pass else "not kept apart"
+            cause = "no way round was found" if row.limbs_pass else "not kept apart"
             count = f"{len(row.crossing):3} frames"
             yield f"  {row.pair:<36}{count}, {span}: {cause}; straight paths {linear}"
         yield ""

@@ -41,7 +41,7 @@ class PlainRigid:
 
 class Rigid:
     """Both ends count alike: S grows as Sᵗ, deviations weigh as seen from either end, no
-    triangle folds and no boundary crosses itself.
+    triangle folds, and no boundary crosses itself unless ``limbs_pass``.
 
     The weights average the normal equations of both directions (Baxter et al. 2008), M = ½ (A_s I +
     A_t F⁻¹F⁻ᵀ). Of all weights and paths tried on real pairs, these fold the fewest frames. Needs
@@ -77,7 +77,7 @@ class Rigid:
 
     @property
     def limbs_pass(self) -> bool:
-        """Whether limbs must pass one another, which crosses the boundary for a while."""
+        """Whether limbs pass one another, as no way round was found: the boundary crosses then."""
         return self._frames.limbs_pass
 
     def plain(self, t: float) -> Array | None:

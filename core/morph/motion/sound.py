@@ -85,7 +85,7 @@ class Stretch:
 
 
 class SoundFrames:
-    """Frames of a motion that do not fold, nor cross unless limbs must pass, wherever they lie."""
+    """Frames of a motion that do not fold, nor cross unless limbs pass, wherever they lie."""
 
     def __init__(
         self,
@@ -106,7 +106,7 @@ class SoundFrames:
         self._known: dict[Ends, Stretch | None] = {}
         anchors, met = self._survey(watch)
         self.limbs_pass = not met
-        """Whether limbs must pass one another, which crosses the boundary for a while.
+        """Whether limbs pass one another, as no way round was found: the boundary crosses then.
 
         Then no part of the boundary is kept from any other, from end to end of the motion.
         """
@@ -162,8 +162,8 @@ class SoundFrames:
     def _survey(self, watch: Watch) -> tuple[list[Anchor], bool]:
         """Return anchors, and whether the walks from both ends meet in the middle.
 
-        So the swapped motion goes the same way back. Where the walks do not meet, limbs that hold
-        each other off must pass one another, which contact would only let them do in a jump.
+        So the swapped motion goes the same way back. Where the walks do not meet, no way
+        round was found for limbs that hold each other off: contact would let them pass in a jump.
         """
         plain = [self._plain_anchor(float(t)) for t in np.linspace(0, 1, SURVEY + 1)]
         self._learn(plain)

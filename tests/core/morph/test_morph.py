@@ -38,3 +38,10 @@ def test_frames_cannot_be_written_to(morph: core.Morph):
     for frame in (morph.at(0.5), morph.plain(0), morph.at(1)):
         with pytest.raises(ValueError, match="read-only"):
             frame += 1
+
+
+def test_a_swapped_pair_moves_in_units_of_the_same_size():
+    small, large = ragged(2), 30 * ragged(1002)
+    marks = [(i, i) for i in range(14)]
+    there, back = core.solve(small, large, marks), core.solve(large, small, marks)
+    assert there.unit == pytest.approx(back.unit)

@@ -68,7 +68,7 @@ class Case:
 
     @property
     def limbs_pass(self) -> bool:
-        """Whether the motion says that limbs must pass one another."""
+        """Whether the motion says that it found no way round for limbs."""
         return self.morph.inbetween.shape.limbs_pass
 
     @cached_property
@@ -204,7 +204,7 @@ FEW = 4
 """Pairs that press so hard on themselves that they come to rest by chance."""
 FRAMES = 33
 CROSSING = 1e-3
-"""Share of frames that may cross, where limbs must pass one another."""
+"""Share of frames that may cross, where no way round was found."""
 
 
 @pytest.mark.sweep
