@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import core
 from core.errors import MarkError, MorphError, OutlineError, SolveError
+from core.geometry.crossing import crosses_itself
 from core.geometry.mend import HAIRS
 from core.model.outline import Array
 from core.morph.morph import Morph
@@ -20,6 +21,7 @@ from tests.core.morph.polygons import comb, disc, hole, needle, spiral, star_sha
 from tests.core.shapes import letter_l, rotation
 
 COARSE = core.Recipe(density=48)
+FRAMES = 17
 STEPS = 5000
 """More steps of work than any pair here takes: beyond, it would be a hang."""
 
@@ -81,16 +83,34 @@ def solved(source: object, target: object, marks: object = None) -> Morph:
 
 
 def assert_sound(morph: Morph, *ends: Sequence[Array], tolerance: float = 1e-9) -> None:
-    """Neither end nor frames between fold, and both ends are as drawn."""
-    for s in np.linspace(0, 1, 5):
+    """The map is one to one, no frame folds or crosses untold, and both ends are as drawn."""
+    assert morph.report.certificate.holds
+    for s in np.linspace(0, 1, FRAMES):
         points = morph.at(float(s))
         assert np.isfinite(points).all()
         assert len(folds(points, morph.triangles)) == 0
-    boundary = np.concatenate(morph.rings)
-    for rings, points in zip(ends, (morph.rest, morph.target), strict=True):
-        drawn = np.concatenate(rings)
-        away = drawn[:, None] - points[boundary]
-        assert np.abs(away).max(axis=2).min(axis=1).max() <= tolerance * np.ptp(drawn)
+        crosses = crosses_itself([points[ring] for ring in morph.rings])
+        assert not crosses or morph.inbetween.shape.limbs_pass
+    repaired = {repair.where.side for repair in morph.report.repairs}
+    for side, rings, points in zip(
+        ("source", "target"), ends, (morph.rest, morph.target), strict=True
+    ):
+        away = tolerance * np.ptp(np.concatenate(rings))
+        for ring in rings:
+            assert any(
+                drawn_on(ring, points[boundary], away, in_order=side not in repaired)
+                for boundary in morph.rings
+            )
+
+
+def drawn_on(drawn: Array, ring: Array, away: float, *, in_order: bool) -> bool:
+    """Whether each vertex drawn is one of a ring's, in order round it, either way."""
+    distance = np.abs(drawn[:, None] - ring).max(axis=2)
+    if distance.min(axis=1).max() > away:
+        return False
+    place = distance.argmin(axis=1)
+    steps = np.diff(place, append=place[:1]) % len(ring)
+    return not in_order or steps.sum() in (len(ring), (np.count_nonzero(steps) - 1) * len(ring))
 
 
 @settings(max_examples=20)
@@ -107,6 +127,19 @@ def test_any_two_shapes_of_any_size_anywhere_give_a_sound_morph(pair):
 def test_many_pairs_of_shapes_give_a_sound_morph(pair):
     source, target = pair
     assert_sound(solved(source, target), [source], [target])
+
+
+def jagged(count: int, seed: int) -> Array:
+    """A star with tips and notches at random."""
+    rng = np.random.default_rng(seed)
+    angle = np.sort(rng.uniform(0, 2 * np.pi, count))
+    return rng.uniform(0.3, 1, count)[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_star_of_very_many_tips_keeps_every_one_against_a_star_of_few(seed):
+    many, few = jagged(100 + 20 * seed, seed), jagged(10 + 4 * seed, seed + 100)
+    assert_sound(solved(many, few), [many], [few])
 
 
 @pytest.mark.parametrize("far", [1e6, 1e9])
