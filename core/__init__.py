@@ -26,7 +26,7 @@ from core.errors import (
 
 if TYPE_CHECKING:
     from core.model import Document, Outline, Recipe
-    from core.morph.face import solve
+    from core.morph.library import solve
     from core.morph.morph import Morph
     from core.morph.report import Report
 
@@ -52,7 +52,7 @@ _LAZY = {
     "Recipe": "core.model",
     "Morph": "core.morph.morph",
     "Report": "core.morph.report",
-    "solve": "core.morph.face",
+    "solve": "core.morph.library",
 }
 
 

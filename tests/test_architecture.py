@@ -24,7 +24,7 @@ def test_the_import_contracts_hold():
     [
         ("core", ["scipy", "shapely", "triangle", "PySide6", "msgspec", "svgelements"]),
         ("app.__main__", ["numpy", "scipy", "PySide6.QtWidgets", "pyqtgraph"]),
-        ("core.morph.face", ["PySide6", "pyqtgraph", "triangle"]),
+        ("core.morph.library", ["PySide6", "pyqtgraph", "triangle"]),
     ],
 )
 def test_importing_loads_nothing_heavy(module, heavy):

@@ -26,7 +26,7 @@ from core.morph.morph import Morph
 from core.morph.motion.motion import Motion
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report, Stage
-from core.morph.rivals import Frame, choose
+from core.morph.rivals import Basis, choose
 from core.progress import Progress, Watch, silent
 
 POOR = 1.2
@@ -62,8 +62,8 @@ def solve_outlines(
     placed = place_marks((source, target), ends, marks, labels)
     clock.start("mapping", 0.1)
     possible = ways(*ends, placed, labels, recipe.density, clock.watch)
-    here, there = frames = Frame.of(ends[0]), Frame.of(ends[1])
-    choice = choose(possible, frames, recipe, clock.watch)
+    here, there = bases = Basis.of(ends[0]), Basis.of(ends[1])
+    choice = choose(possible, bases, recipe, clock.watch)
     taken, found = choice.taken, choice.map
     clock.start("in-between", 0.9)
     mesh = found.mesh
@@ -89,8 +89,8 @@ def solve_outlines(
         repairs=ends[0].repairs + ends[1].repairs,
         proposed=unplace_marks(taken.proposed, (source, target), ends),
     )
-    frame = moving.origin, moving.unit
-    return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, *frame)
+    basis = moving.origin, moving.unit
+    return Morph(mesh.triangles, rest, goal, mesh.rings, report, inbetween, *basis)
 
 
 def _inbetween(

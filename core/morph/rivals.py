@@ -41,7 +41,7 @@ SKETCH = 256
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class Basis:
     """An end's own coordinates: at unit area, tolerances and energies mean the same for all."""
 
     origin: Array
@@ -52,7 +52,7 @@ class Frame:
         """Take the coordinates of an outline."""
         return cls(end.rings[0].mean(axis=0), float(np.sqrt(end.area)))
 
-    def amid(self, other: Frame) -> Self:
+    def amid(self, other: Basis) -> Self:
         """Return coordinates of a size midway to another's, whichever of them comes first."""
         return replace(self, unit=float(np.sqrt(self.unit * other.unit)))
 
@@ -75,7 +75,7 @@ class Choice:
     """How many correspondences got a map."""
 
 
-def choose(ways: Iterable[Way], frames: Frames, recipe: Recipe, watch: Watch) -> Choice:
+def choose(ways: Iterable[Way], bases: Bases, recipe: Recipe, watch: Watch) -> Choice:
     """Map the correspondences that may be the best one; improve whichever is, while another is not.
 
     ``ways`` come the most likely first. ``watch(stage)`` is called between steps and may raise
@@ -87,7 +87,7 @@ def choose(ways: Iterable[Way], frames: Frames, recipe: Recipe, watch: Watch) ->
         doubt = _doubt(way.misfit, likeliest) if tried else 1.0
         if _cost(GOOD, 0.0, doubt) >= least or (rival := way.follow()) is None:
             continue
-        ends = _inside(rival, frames)
+        ends = _inside(rival, bases)
         if _cost(GOOD, _turn(*ends), doubt) >= least:
             continue
         likeliest = likeliest if tried else way.misfit
@@ -96,12 +96,12 @@ def choose(ways: Iterable[Way], frames: Frames, recipe: Recipe, watch: Watch) ->
     if not tried:
         raise SolveError("The outlines could not be matched.", hint="Set marks on both.")
     while not (best := min(tried, key=lambda each: each.cost)).finished:
-        tried[tried.index(best)] = best.advanced(frames, recipe, watch)
+        tried[tried.index(best)] = best.advanced(bases, recipe, watch)
     return Choice(best.rival, best.map, len(tried))
 
 
 Rings = list[Array]
-Frames = tuple[Frame, Frame]
+Bases = tuple[Basis, Basis]
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,17 +150,17 @@ class _Tried:
         fine = self.map.mesh.boundary_size >= 2 * SKETCH
         return bool(possible) and self.map.mean >= SLIDING and not fine
 
-    def advanced(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried:
+    def advanced(self, bases: Bases, recipe: Recipe, watch: Watch) -> _Tried:
         """Return it without folds; or slid, while that helps; or mended in the end."""
         if not self._may_slide:
             return self.drawn(recipe, watch).with_mended_map(recipe, watch)
-        after = self.slid(frames, recipe, watch)
+        after = self.slid(bases, recipe, watch)
         saved = 0.0 if after is None else self.cost - after.cost
         if after is None or saved <= 0:
             return replace(self, slides=0)
         return replace(after, slides=self.slides - 1 if saved >= WORTH else 0)
 
-    def slid(self, frames: Frames, recipe: Recipe, watch: Watch) -> _Tried | None:
+    def slid(self, bases: Bases, recipe: Recipe, watch: Watch) -> _Tried | None:
         """Return the map, without folds, of what the boundary slides to; none if that fails."""
         start = perf_counter()
         try:
@@ -168,7 +168,7 @@ class _Tried:
         except MarkError:
             return None
         stage = Stage("sliding", perf_counter() - start, f"from distortion {self.map.mean:.3f}")
-        after = _Tried.of(rival, _inside(rival, frames), self.doubt, recipe, watch)
+        after = _Tried.of(rival, _inside(rival, bases), self.doubt, recipe, watch)
         return after.after(stage).unfolded(recipe, watch)
 
     def after(self, *stages: Stage) -> _Tried:
@@ -218,8 +218,8 @@ def _turn(source: Rings, target: Rings) -> float:
     return float(np.angle(np.vdot(here - here.mean(), there - there.mean())))
 
 
-def _inside(rival: Correspondence, frames: Frames) -> tuple[Rings, Rings]:
+def _inside(rival: Correspondence, bases: Bases) -> tuple[Rings, Rings]:
     return (
-        [frames[0].inside(pair.source) for pair in rival.boundaries],
-        [frames[1].inside(pair.target) for pair in rival.boundaries],
+        [bases[0].inside(pair.source) for pair in rival.boundaries],
+        [bases[1].inside(pair.target) for pair in rival.boundaries],
     )

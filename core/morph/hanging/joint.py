@@ -139,23 +139,28 @@ class MovingJoint:
         if self._morph.inbetween.course is None:
             return 0.0
         s = self._stretch.progress(frame)
-        own = s * (self.angle - self._morph.angle)
         smoothed = sum(bump * rate for bump, rate in zip(bumps(s), self._spins, strict=True))
-        return self._carrier_turned(frame, places) + own - smoothed
+        return self._turned_unsmoothed(frame, places) - smoothed
+
+    def _turned_unsmoothed(self, frame: float, places: Array) -> float:
+        own = self._stretch.progress(frame) * (self.angle - self._morph.angle)
+        return self._carrier_turned(frame, places) + own
 
     def _extra_spins(self) -> tuple[float, float]:
         """Return how fast this turns the span, per unit s, at ends that the motion passes through.
 
         There it must not: the span's own motion has the velocity that it shares with the next.
         """
-        self._spins = 0.0, 0.0
-        if not any(self._stretch.passes):
-            return self._spins
+        before, after = self._stretch.passes
+        if self._morph.inbetween.course is None or not (before or after):
+            return 0.0, 0.0
         first, last = self._stretch.first, self._stretch.last
         step = NO_TIME * (last - first)
-        start, end = (self.turned(frame) for frame in (first + step, last - step))
-        before, after = self._stretch.passes
-        return before * start / NO_TIME, after * (self.turned(last) - end) / NO_TIME
+        start, almost, end = (
+            self._turned_unsmoothed(frame, self._places(frame))
+            for frame in (first + step, last - step, last)
+        )
+        return before * start / NO_TIME, after * (end - almost) / NO_TIME
 
     def _carrier_turned(self, frame: float, places: Array) -> float:
         """Return how far the carrier has turned where it has its part of the joint."""

@@ -15,11 +15,11 @@ from core.morph import rivals
 from core.morph.boundary import BoundaryPair
 from core.morph.correspondence import Correspondence, Matching, Way
 from core.morph.mapping import Map
-from core.morph.rivals import SKETCH, Choice, Frame, choose
+from core.morph.rivals import SKETCH, Basis, Choice, choose
 from core.progress import unwatched
 from tests.core.morph.polygons import comb, disc
 
-FRAMES = (Frame(np.zeros(2), 1.0), Frame(np.zeros(2), 1.0))
+BASES = (Basis(np.zeros(2), 1.0), Basis(np.zeros(2), 1.0))
 COUNT = 5 * SKETCH
 
 
@@ -30,7 +30,7 @@ def chosen(*targets: Array) -> Choice:
         Correspondence(Matching(()), [BoundaryPair(source, target)], (0.1, 0.1), ())
         for target in targets
     ]
-    return choose([Way(0.0, lambda way=way: way) for way in ways], FRAMES, Recipe(), unwatched)
+    return choose([Way(0.0, lambda way=way: way) for way in ways], BASES, Recipe(), unwatched)
 
 
 def test_the_better_of_two_finely_drawn_rivals_is_taken_and_mapped_with_all_its_vertices() -> None:
@@ -69,7 +69,7 @@ def test_a_way_that_cannot_be_the_best_is_not_followed() -> None:
 
         return Way(misfit, follow)
 
-    assert choose([way(0.0), way(0.1)], FRAMES, Recipe(), unwatched).tried == 1
+    assert choose([way(0.0), way(0.1)], BASES, Recipe(), unwatched).tried == 1
     assert followed == [0.0]
 
 
@@ -77,9 +77,9 @@ def test_ways_that_contradict_themselves_are_passed_over() -> None:
     source = comb(3, 40)
     sound = Correspondence(Matching(()), [BoundaryPair(source, source)], (0.1, 0.1), ())
     ways = [Way(0.0, lambda: None), Way(0.1, lambda: sound)]
-    assert choose(ways, FRAMES, Recipe(), unwatched).taken is sound
+    assert choose(ways, BASES, Recipe(), unwatched).taken is sound
     with pytest.raises(SolveError):
-        choose(ways[:1], FRAMES, Recipe(), unwatched)
+        choose(ways[:1], BASES, Recipe(), unwatched)
 
 
 def test_a_way_whose_first_map_folds_wins_by_what_sliding_makes_of_it(shared_data: Path) -> None:
