@@ -28,9 +28,9 @@ from shapely import STRtree
 from core.geometry.crossing import crosses_itself
 from core.geometry.origin import Origin
 from core.geometry.polyline import cross, signed_area
+from core.geometry.triangulation import Indices
 from core.model.outline import Array
 
-Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 TOUCH = 1e-9

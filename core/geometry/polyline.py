@@ -60,3 +60,8 @@ def resample(points: Array, count: int, start: float = 0.0) -> Array:
     """Return (count, 2) points evenly spaced by arc length, the first at arc length ``start``."""
     lengths = arc_lengths(points)
     return points_at(points, lengths, start + np.arange(count) * (lengths[-1] / count))
+
+
+def reversed_ring(points: Array) -> Array:
+    """Return a ring (n, 2) the other way round, its first vertex staying first."""
+    return np.roll(points[::-1], 1, axis=0)

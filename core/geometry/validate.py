@@ -19,7 +19,7 @@ from core.errors import OutlineError, Repair, Where
 from core.geometry.crossing import crosses_itself
 from core.geometry.mend import BeyondRepair, Mended, mend, separate
 from core.geometry.origin import Origin
-from core.geometry.polyline import arc_lengths, signed_area
+from core.geometry.polyline import arc_lengths, reversed_ring, signed_area
 from core.model.outline import Array
 
 REPEAT = 1e-9
@@ -107,7 +107,7 @@ def clean(rings: Sequence[Array], side: str) -> CleanOutline:
         repairs += _told(mended, at_unit, [unit.inside(r) for r in distinct], unit, side)
     turned = [(signed_area(ring) > 0) != (i == 0) for i, ring in enumerate(distinct)]
     return CleanOutline(
-        tuple(_reversed(r) if t else r for r, t in zip(distinct, turned, strict=True)),
+        tuple(reversed_ring(r) if t else r for r, t in zip(distinct, turned, strict=True)),
         tuple(o.reversed() if t else o for o, t in zip(origins, turned, strict=True)),
         tuple(repairs),
     )
@@ -317,10 +317,6 @@ def _rings_at(rings: Sequence[Array], point: Array) -> list[int]:
     """Return the rings that run through a point, or at least the nearest."""
     distance = shapely.distance([LinearRing(ring) for ring in rings], shapely.points(point))
     return [int(i) for i in np.flatnonzero(distance <= max(1e-6, distance.min()))]
-
-
-def _reversed(ring: Array) -> Array:
-    return np.roll(ring[::-1], 1, axis=0)
 
 
 def _point(ring: Array) -> tuple[float, float] | None:

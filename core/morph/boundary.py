@@ -266,7 +266,7 @@ def _nearest(a: Array, b: Array) -> Indices:
 
 
 def _union(anchors: Array, source: _Curve, target: _Curve) -> Array:
-    """Return (k, 2) arc lengths of every vertex of both outlines, on both outlines."""
+    """Return arc lengths (k, 2) on the source and the target: one row for each vertex of either."""
     here, there = _closed(anchors, source, target).T
     (a, _), (b, _) = _between(source.vertices, here), _between(target.vertices, there)
     from_source = np.column_stack([a, np.interp(a, here, there)])

@@ -91,7 +91,7 @@ FramesOf = Callable[[Span], F | None]
 MorphOf = Callable[[Span], "Morph | None"]
 """Looks a span's solution up; None while there is none."""
 Carry = Callable[[Layer, float], RigidMotion]
-"""Tells what moves a layer's own frame to where it is carried."""
+"""Called with a layer and a frame number: returns the rigid motion that its carrier gives it."""
 
 
 def span_of(layer: Layer, index: int) -> Span:
@@ -154,7 +154,7 @@ def picture_at(document: Document, frame: float, frames_of: FramesOf[F]) -> Pict
 
 
 def carrying(document: Document, frames_of: FramesOf[F]) -> Carry:
-    """Return what tells where layers are carried by what they hang on."""
+    """Return a function that gives the motion of any layer with its carrier."""
     if all(layer.carrier is None for layer in document.layers):
         return lambda layer, frame: STILL
     from core.morph.hanging.carriers import Carriers  # shapely loads where layers hang, not before

@@ -13,7 +13,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.rotation import Complex
+from core.geometry.rotation import Complex, to_complex
 from core.geometry.triangulation import Indices, Mesh, split_edges, unique_edges
 from core.model.outline import Array
 
@@ -39,7 +39,7 @@ class JointMesh:
     @classmethod
     def of(cls, mesh: Mesh, target: Array) -> Self:
         """Join a mesh of the source and target positions (n, 2)."""
-        points = np.stack([_complex(mesh.points), _complex(target)], axis=1)
+        points = np.stack([to_complex(mesh.points), to_complex(target)], axis=1)
         return cls(points, mesh.triangles, mesh.boundary_size)
 
     def moved(self, points: Complex) -> JointMesh:
@@ -176,7 +176,3 @@ def _sorting(keys: Indices) -> Indices:
     """
     count = len(keys)
     return np.sort(keys * count + np.arange(count)) % count
-
-
-def _complex(points: Array) -> Complex:
-    return points[:, 0] + 1j * points[:, 1]

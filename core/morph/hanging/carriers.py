@@ -16,9 +16,9 @@ from core.morph.scene import F, FramesOf, Span, span_of
 
 
 class Carriers(Generic[F]):
-    """Looks at a document once: what was found for one layer is kept for the others.
+    """The motions that layers get from their carriers, for one document.
 
-    It keeps the solutions alive that its runs show.
+    What is found for a layer is kept for those that hang on it, and with it the solutions shown.
     """
 
     def __init__(self, document: Document, frames_of: FramesOf[F]) -> None:

@@ -11,12 +11,10 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
-from core.geometry.polyline import arc_lengths, points_at, resample, signed_area
+from core.geometry.polyline import arc_lengths, points_at, resample, reversed_ring, signed_area
+from core.geometry.rotation import Complex
 from core.model.outline import Array
-
-Complex = NDArray[np.complex128]
 
 EVEN = 128
 """Samples that the centre and the size of a ring are measured on."""
@@ -51,12 +49,12 @@ class Contour:
         centre = even.mean(axis=0)
         points = (ring - centre) / np.sqrt(np.mean(np.sum((even - centre) ** 2, axis=1)))
         backwards = signed_area(points) < 0
-        points = _turned_back(points) if backwards else points
+        points = reversed_ring(points) if backwards else points
         return cls(points, arc_lengths(points), backwards)
 
     def mirrored(self) -> Contour:
         """Return the reflection."""
-        points = _turned_back(self.points * [1.0, -1.0])
+        points = reversed_ring(self.points * [1.0, -1.0])
         return Contour(points, arc_lengths(points), not self.backwards)
 
     def translated(self, at: Array) -> Array:
@@ -159,8 +157,3 @@ class Samples:
 def gap(a: Array, b: Array | float) -> Array:
     """Return a − b for places on a ring, the short way round."""
     return np.mod(a - b + 0.5, 1.0) - 0.5
-
-
-def _turned_back(points: Array) -> Array:
-    """Run a ring the other way round, vertex 0 staying first."""
-    return np.roll(points[::-1], 1, axis=0)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.geometry.polyline import arc_lengths, points_at, resample
+from core.geometry.rotation import Complex, to_complex
 from core.model.outline import Array
 from core.morph.marks.alignment import fit_limbs
-from core.morph.marks.contour import Complex
 from core.morph.marks.rings import RingMatch
 
 SAMPLES = 100
@@ -50,8 +50,8 @@ def paired_holes(
 
     lengths = arc_lengths(source[0])
     at = np.arange(SAMPLES) * (lengths[-1] / SAMPLES)
-    here = _complex(points_at(source[0], lengths, at))
-    there = _complex(points_at(target[0], arc_lengths(target[0]), exterior.images(at)))
+    here = to_complex(points_at(source[0], lengths, at))
+    there = to_complex(points_at(target[0], arc_lengths(target[0]), exterior.images(at)))
     radius = float(np.sqrt(np.mean(np.abs(here - here.mean()) ** 2)))
     (centres, sizes), (others, other_sizes) = _extents(source[1:]), _extents(target[1:])
     carried = fit_limbs(centres, here, there, np.ones(SAMPLES), REACH * radius)
@@ -70,11 +70,7 @@ def paired_holes(
 
 def _extents(rings: Sequence[Array]) -> tuple[Complex, Array]:
     """Return the centres of rings and their radii."""
-    even = np.array([_complex(resample(ring, SAMPLES)) for ring in rings])
+    even = np.array([to_complex(resample(ring, SAMPLES)) for ring in rings])
     centres = even.mean(axis=1)
     radii = np.sqrt(np.mean(np.abs(even - centres[:, None]) ** 2, axis=1))
     return centres, np.maximum(radii, 1e-300)
-
-
-def _complex(points: Array) -> Complex:
-    return points[:, 0] + 1j * points[:, 1]

@@ -26,8 +26,8 @@ FINER = 4
 Pairs = tuple[Indices, Indices]
 """Runs (p,) of which a vertex, and runs (p,) of which an edge is meant."""
 Test = Callable[[int, Pairs], NDArray[np.bool_]]
-"""Says which pairs of runs (p,) may come near each other; the runs' level comes first, that of the
-longest being 0. Where a pair may, so may those that hold it.
+"""Called with a level, 0 for the longest runs, and pairs of its runs; returns (p,) which may come
+near each other. Where a pair may, the longer runs that hold it must be said to, too.
 """
 
 
