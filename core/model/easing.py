@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 FLAT = 1e-9
 """A rise too small to be divided by."""
 WILD = 100.0
-"""A half that overshoots by more than this many times its own rise is made even."""
+"""How far y may overshoot; half of an easing that would be wilder is made even."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,8 @@ def _cubic(u: float, a: float, b: float) -> float:
 def _from_handles(a: complex, b: complex, end: complex) -> Easing:
     """Return the curve from 0 to ``end`` by way of two handles, x + iy, scaled to the unit square.
 
-    Its first handle is shortened where it reaches past the end.
+    Its first handle is shortened where it reaches past the end. Turned round, y may overshoot by
+    one more.
     """
     if abs(end.imag) < FLAT:
         return LINEAR
@@ -88,7 +89,7 @@ def _from_handles(a: complex, b: complex, end: complex) -> Easing:
     x2, y2 = b.real / end.real, b.imag / end.imag
     if x1 > 1:
         x1, y1 = 1.0, y1 / x1
-    return Easing(x1, y1, min(x2, 1.0), y2) if max(abs(y1), abs(y2)) <= WILD else LINEAR
+    return Easing(x1, y1, min(x2, 1.0), y2) if max(abs(y1), abs(y2)) <= WILD - 1 else LINEAR
 
 
 LINEAR = Easing()

@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 
 from core.model.document import Document
-from core.model.easing import Easing
+from core.model.easing import WILD, Easing
 from core.model.layer import Keyframe, Layer
 from core.model.outline import MIN_NODES, Outline, RingPoint
 from core.model.recipe import LEAST_DENSITY, MOST_DENSITY, Recipe
@@ -17,10 +17,13 @@ from core.model.style import Style
 from core.model.turning import MOST_TURNS, Turning
 
 MAX_FRAME = 1_000_000
+FARTHEST = 1e15
+"""Of a node or handle from zero: squares and fourth powers must stay finite."""
 LEAST_RATE, MOST_RATE = 0.001, 1000
 """Frames a second: no frame lasts so long, or so short, that no clock can tell."""
 LEAST_SIDE, MOST_SIDE = 0.001, 1_000_000
 """Of the artboard: what can be told from a point, and counted in pixels."""
+_FAR = f"not a finite number, or further than {FARTHEST:g} from zero"
 COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
 
 Problem = tuple[str, str]
@@ -100,8 +103,9 @@ def _outline(path: str, outline: Outline) -> Iterator[Problem]:
         if len(ring) < MIN_NODES:
             yield f"{path}.rings[{i}].points", f"a ring needs at least {MIN_NODES} nodes"
         for name in ("points", "handles_in", "handles_out"):
-            for row in np.flatnonzero(~np.isfinite(getattr(ring, name)).all(axis=1))[:1]:
-                yield f"{path}.rings[{i}].{name}[{row}]", "not a finite number"
+            near = (np.abs(getattr(ring, name)) <= FARTHEST).all(axis=1)  # nor is NaN
+            for row in np.flatnonzero(~near)[:1]:
+                yield f"{path}.rings[{i}].{name}[{row}]", _FAR
 
 
 def place_problems(path: str, place: RingPoint, outline: Outline) -> Iterator[Problem]:
@@ -118,8 +122,7 @@ def _easing(path: str, easing: Easing) -> Iterator[Problem]:
     for name in ("x1", "x2"):
         yield from _between(f"{path}.{name}", getattr(easing, name), 0, 1)
     for name in ("y1", "y2"):
-        if not isfinite(getattr(easing, name)):
-            yield f"{path}.{name}", "not a finite number"
+        yield from _between(f"{path}.{name}", getattr(easing, name), -WILD, WILD)
 
 
 def _turning(path: str, turning: Turning) -> Iterator[Problem]:
@@ -129,8 +132,7 @@ def _turning(path: str, turning: Turning) -> Iterator[Problem]:
 def _style(path: str, style: Style) -> Iterator[Problem]:
     yield from _colour(f"{path}.fill", style.fill)
     yield from _colour(f"{path}.stroke", style.stroke)
-    if not (isfinite(style.stroke_width) and style.stroke_width >= 0):
-        yield f"{path}.stroke_width", f"{style.stroke_width} is not a width"
+    yield from _between(f"{path}.stroke_width", style.stroke_width, 0, MOST_SIDE)
 
 
 def _recipe(path: str, recipe: Recipe) -> Iterator[Problem]:

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from core.errors import FileError
 from core.geometry.flatten import flatten
 from core.geometry.polyline import signed_area
 from core.model import Outline, Ring
@@ -16,6 +17,10 @@ Rule = Literal["evenodd", "nonzero"]
 
 SAMPLES = 15
 """Vertices that are looked at to tell whether one ring lies inside another."""
+MAX_OVERLAPS = 1_000_000
+"""Pairs of rings, one of which may lie inside the other, that a shape may have."""
+BATCH = 256
+"""Rings that are looked at together, so that memory is bounded, too."""
 
 
 def group_rings(rings: Sequence[Ring], rule: Rule = "evenodd") -> list[Outline]:
@@ -23,7 +28,7 @@ def group_rings(rings: Sequence[Ring], rule: Rule = "evenodd") -> list[Outline]:
 
     A ring bounds the filled area if the rule gives its inside and its surroundings different
     answers; a ring that bounds nothing is left out. Where rings cross, a hole may lie in no
-    exterior; it becomes a shape of its own.
+    exterior; it becomes a shape of its own. FileError where far too many overlap.
     """
     if len(rings) == 1:
         return [Outline(tuple(rings))]
@@ -53,21 +58,28 @@ def group_rings(rings: Sequence[Ring], rule: Rule = "evenodd") -> list[Outline]:
 
 
 def _surroundings(polygons: Sequence[Array], areas: Array) -> list[list[int]]:
-    """For each polygon (k, 2), the indices of those that it lies in."""
+    """For each polygon (k, 2), the indices of those that it mostly lies in.
+
+    Several of its vertices are asked, since one may lie on the boundary of the other ring.
+    """
     import shapely
 
     shapes = np.array([shapely.Polygon(polygon) for polygon in polygons])
+    shapely.prepare(shapes)
     tree = shapely.STRtree(shapes)
+    samples = np.array([p[np.linspace(0, len(p) - 1, SAMPLES).astype(int)] for p in polygons])
     around: list[list[int]] = [[] for _ in polygons]
-    for inner, outer in tree.query(shapes).T:
-        if areas[outer] > areas[inner] and _mostly_inside(polygons[inner], shapes[outer]):
-            around[inner].append(int(outer))
+    overlaps = 0
+    for start in range(0, len(shapes), BATCH):
+        number, outer = tree.query(shapes[start : start + BATCH])
+        inner = start + number
+        larger = areas[outer] > areas[inner]
+        inner, outer = inner[larger], outer[larger]
+        overlaps += len(inner)
+        if overlaps > MAX_OVERLAPS:
+            raise FileError(f"More than {MAX_OVERLAPS} pairs of curves lie in or over each other.")
+        x, y = np.moveaxis(samples[inner], 2, 0)
+        inside = shapely.contains_xy(shapes[outer][:, None], x, y).mean(axis=1) > 0.5
+        for i, j in zip(inner[inside].tolist(), outer[inside].tolist(), strict=True):
+            around[i].append(j)
     return around
-
-
-def _mostly_inside(points: Array, polygon: object) -> bool:
-    """Ask several vertices (k, 2), since one may lie on the boundary of the other ring."""
-    import shapely
-
-    sample = points[np.linspace(0, len(points) - 1, SAMPLES).astype(int)]
-    return bool(shapely.contains_xy(polygon, sample).mean() > 0.5)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from core.io.importers.part import Part
+from core.model.structure import MOST_SIDE
 
 FILLED = 0.7
 """The part of the artboard that a fitted import fills at most."""
@@ -32,5 +33,5 @@ def fitted(parts: Sequence[Part], size: tuple[float, float]) -> list[Part]:
 def _scaled(part: Part, scale: float, offset: np.ndarray) -> Part:
     style = part.style
     if style is not None and style.stroke:
-        style = replace(style, stroke_width=scale * style.stroke_width)
+        style = replace(style, stroke_width=min(scale * style.stroke_width, MOST_SIDE))
     return replace(part, outline=part.outline.transformed(scale * np.eye(2), offset), style=style)

@@ -1,44 +1,47 @@
 """Point lists as text: one point a line, a blank line between rings.
 
-Numbers are parted by commas, semicolons, tabs or spaces. A header may name the columns. Lines
-that begin with # are comments. Where the separator is not a comma, a decimal comma is understood.
+Numbers are parted by commas, semicolons, tabs or spaces. Lines of words may stand before them, of
+which the last may name the columns. What follows # is a comment. Where the separator is not a
+comma, a decimal comma is understood.
 """
 
 from __future__ import annotations
 
-from math import isfinite
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 
 from core.errors import FileError
 from core.io.importers.part import Part, Warn
 from core.io.importers.points import Points, parts_of
+from core.model.structure import FARTHEST
 
 
 def read(data: bytes, name: str, warn: Warn) -> list[Part]:
     """Return the polygons of a point list."""
+    encoding = "utf-16" if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else "utf-8-sig"
     try:
-        lines = data.decode("utf-8-sig").splitlines()
+        lines = data.decode(encoding).splitlines()
     except UnicodeDecodeError as error:
-        raise FileError("This is not a text file.") from error
+        raise FileError("This is not a text file.", hint="Save it as text in UTF-8.") from error
     return parts_of(_rings(lines), name)
 
 
 def _rings(lines: list[str]) -> list[Points]:
     rings: list[list[tuple[float, float]]] = [[]]
     columns: tuple[int, int] | None = None
-    headed = False
-    for number, line in enumerate(lines, 1):
+    named: tuple[int, int] | None = None
+    for number, whole in enumerate(lines, 1):
+        line, mark, _ = whole.partition("#")
         cells = _cells(line)
-        if line.lstrip().startswith("#"):
-            continue
         if not cells:
-            rings.append([])
+            if not mark:
+                rings.append([])
             continue
         if columns is None:
-            if not headed and _is_header(cells):
-                columns, headed = _named(cells), True
+            if _is_header(cells):
+                named = _named(cells)
                 continue
-            columns = (0, 1)
-            if len(cells) > 2:
+            columns = named or (0, 1)
+            if len(cells) > 2 and not named:
                 raise FileError(
                     f"Line {number}: expected two numbers, found {len(cells)} columns.",
                     hint="A header line that names the columns x and y tells which to take.",
@@ -90,8 +93,8 @@ def _point(cells: list[str], columns: tuple[int, int], line: int) -> tuple[float
     if x is None or y is None:
         wrong = cells[columns[0] if x is None else columns[1]]
         raise FileError(f"Line {line}: {wrong!r} is not a number.")
-    if not (isfinite(x) and isfinite(y)):
-        raise FileError(f"Line {line}: the point is not finite.")
+    if not (abs(x) <= FARTHEST and abs(y) <= FARTHEST):  # nor is NaN
+        raise FileError(f"Line {line}: the point is not finite, or too far away.")
     return x, y
 
 

@@ -7,14 +7,13 @@
 from __future__ import annotations
 
 import json
-import sys
 from typing import Any
 
 from core.errors import FileError
 from core.io.importers.part import Part, Warn
 from core.io.importers.points import Points, parts_of
+from core.model.structure import FARTHEST
 
-LARGEST = sys.float_info.max
 EXPECTED = 'Expected [[x, y], …], a list of such rings, {"points": …} or {"rings": …}.'
 
 
@@ -33,9 +32,15 @@ def read(data: bytes, name: str, warn: Warn) -> list[Part]:
         content = content.get(path)
     if not isinstance(content, list) or not content:
         raise FileError(EXPECTED)
-    if _is_point(content[0]):
-        return parts_of([_ring(content, path)], name)
-    return parts_of([_ring(ring, f"{path}[{i}]") for i, ring in enumerate(content)], name)
+    if _holds_rings(content):
+        return parts_of([_ring(ring, f"{path}[{i}]") for i, ring in enumerate(content)], name)
+    return parts_of([_ring(content, path)], name)
+
+
+def _holds_rings(content: list[Any]) -> bool:
+    """Whether a list is one of rings rather than of points, right or wrong."""
+    first = content[0]
+    return isinstance(first, list) and bool(first) and isinstance(first[0], list)
 
 
 def _ring(content: Any, path: str) -> Points:
@@ -43,7 +48,7 @@ def _ring(content: Any, path: str) -> Points:
         raise FileError(f"{path}: expected a list of points. {EXPECTED}")
     for i, point in enumerate(content):
         if not _is_point(point):
-            raise FileError(f"{path}[{i}]: expected two finite numbers, found {_short(point)}.")
+            raise FileError(f"{path}[{i}]: expected a point [x, y], found {_short(point)}.")
     return [(float(x), float(y)) for x, y in content]
 
 
@@ -52,7 +57,7 @@ def _is_point(value: Any) -> bool:
         isinstance(value, list)
         and len(value) == 2
         and all(isinstance(v, int | float) and not isinstance(v, bool) for v in value)
-        and all(abs(v) <= LARGEST for v in value)
+        and all(abs(v) <= FARTHEST for v in value)  # nor is NaN
     )
 
 

@@ -21,10 +21,12 @@ from core.model import (
     Style,
     Turning,
 )
+from core.model.easing import WILD
 from core.model.recipe import Material, Method
-from core.model.structure import LEAST_RATE, LEAST_SIDE, MOST_RATE, MOST_SIDE
+from core.model.structure import FARTHEST, LEAST_RATE, LEAST_SIDE, MOST_RATE, MOST_SIDE
 
-FINITE = st.floats(allow_nan=False, allow_infinity=False)
+COORDINATES = st.floats(-FARTHEST, FARTHEST)
+OVERSHOOTS = st.floats(-WILD, WILD)
 POSITIVE = st.floats(min_value=1e-300, max_value=1e300)
 FRACTION = st.floats(0, 1)
 SIDES = st.floats(LEAST_SIDE, MOST_SIDE)
@@ -34,13 +36,13 @@ COLOURS = st.from_regex(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?", fullmatch=True)
 @st.composite
 def rings(draw: st.DrawFn) -> Ring:
     shape = (draw(st.integers(3, 6)), 2)
-    points = draw(arrays(np.float64, shape, elements=FINITE))
-    handles = st.one_of(st.just(np.zeros(shape)), arrays(np.float64, shape, elements=FINITE))
+    points = draw(arrays(np.float64, shape, elements=COORDINATES))
+    handles = st.one_of(st.just(np.zeros(shape)), arrays(np.float64, shape, elements=COORDINATES))
     return Ring(points, draw(handles), draw(handles))
 
 
 OUTLINES = st.lists(rings(), min_size=1, max_size=2).map(lambda found: Outline(tuple(found)))
-EASINGS = st.builds(Easing, FRACTION, FINITE, FRACTION, FINITE, st.booleans())
+EASINGS = st.builds(Easing, FRACTION, OVERSHOOTS, FRACTION, OVERSHOOTS, st.booleans())
 TURNINGS = st.builds(
     Turning,
     st.sampled_from(["automatic", "clockwise", "counter-clockwise"]),
@@ -48,7 +50,7 @@ TURNINGS = st.builds(
     st.sampled_from(["arc", "straight"]),
     st.sampled_from(["centre", "joint"]),
 )
-STYLES = st.builds(Style, COLOURS, COLOURS, st.floats(0, 1e300))
+STYLES = st.builds(Style, COLOURS, COLOURS, st.floats(0, MOST_SIDE))
 RECIPES = st.builds(
     Recipe,
     st.sampled_from(get_args(Method)),

@@ -82,10 +82,23 @@ def test_columns_are_never_guessed_among_more_than_two(tmp_path: Path) -> None:
     assert "Line 2: expected two numbers, found 3 columns" in refusal(tmp_path, "a.csv", text)
 
 
-@pytest.mark.parametrize("first", ["A title of some words", "  # a comment\n  # and another"])
+@pytest.mark.parametrize(
+    "first", ["A title of some words", "  # a comment\n  # and another", "A title\nx y"]
+)
 def test_a_line_of_words_before_the_points_is_passed_over(tmp_path: Path, first: str) -> None:
     text = f"{first}\n{lines(TRIANGLE, ' ')}"
     assert only_ring(read(tmp_path, "a.txt", text)) == TRIANGLE
+
+
+def test_what_follows_a_hash_is_a_comment(tmp_path: Path) -> None:
+    text = "# first\n" + lines(TRIANGLE, ",").replace("\n", " # a corner\n# between\n")
+    assert only_ring(read(tmp_path, "a.txt", text)) == TRIANGLE
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_text_of_any_unicode_is_read(tmp_path: Path, encoding: str) -> None:
+    text = f"Füße\n{lines(TRIANGLE, ',')}"
+    assert only_ring(read(tmp_path, "a.csv", text.encode(encoding))) == TRIANGLE
 
 
 def test_a_blank_line_begins_a_ring_and_a_ring_inside_is_a_hole(tmp_path: Path) -> None:
@@ -101,8 +114,9 @@ def test_a_blank_line_begins_a_ring_and_a_ring_inside_is_a_hole(tmp_path: Path) 
     [
         ("0,0\n1,zwei\n1,1", "Line 2: 'zwei' is not a number."),
         ("x,y\n0,0\n\n1", "Line 4: expected two numbers, found 1."),
-        ("0,0\n1,nan\n1,1", "Line 2: the point is not finite."),
-        ("0,0\n1,1e999\n1,1", "Line 2: the point is not finite."),
+        ("0,0\n1,nan\n1,1", "Line 2: the point is not finite, or too far away."),
+        ("0,0\n1,1e300\n1,1", "Line 2: the point is not finite, or too far away."),
+        ("0,0\n1,1e999\n1,1", "Line 2: the point is not finite, or too far away."),
         ("0,0,0\n1,1,1", "Line 1: expected two numbers, found 3 columns."),
         ("", "The file holds no points."),
         ("x,y\n", "The file holds no points."),
@@ -144,10 +158,12 @@ def test_rings_of_json_are_nested_or_parts(tmp_path: Path) -> None:
     ("text", "said"),
     [
         ("[[0, 0],\n [1, 0}]", "Line 2, column 7: Expecting ',' delimiter."),
-        ("[[0, 0], [1, 0], [1]]", "[2]: expected two finite numbers, found [1]."),
-        ("[[0, 0], [1, NaN]]", "[1]: expected two finite numbers, found [1, NaN]."),
-        ('{"rings": [[[0, 0], ["a"]]]}', 'rings[0][1]: expected two finite numbers, found ["a"].'),
-        ("[[0, 0], [true, 1]]", "[1]: expected two finite numbers, found [true, 1]."),
+        ("[[0, 0], [1, 0], [1]]", "[2]: expected a point [x, y], found [1]."),
+        ("[[0, NaN], [1, 0]]", "[0]: expected a point [x, y], found [0, NaN]."),
+        ("[[0, 0, 0], [1, 0, 0]]", "[0]: expected a point [x, y], found [0, 0, 0]."),
+        ("[[0, 0], [1, NaN]]", "[1]: expected a point [x, y], found [1, NaN]."),
+        ('{"rings": [[[0, 0], ["a"]]]}', 'rings[0][1]: expected a point [x, y], found ["a"].'),
+        ("[[0, 0], [true, 1]]", "[1]: expected a point [x, y], found [true, 1]."),
         ("[[0, 0], [1" + "0" * 400 + ", 1]]", None),
         ("[[0, 0], [1" + "0" * 5000 + ", 1]]", None),
         ("[" * 100_000, None),

@@ -198,7 +198,7 @@ def test_the_file_holds_every_field_of_the_model() -> None:
         ("layers.0.keyframes", [], "layers[0].keyframes: a layer needs at least one keyframe"),
         ("layers.0.labels.1", "a", "layers[0].labels[1]: the letter 'a' is used twice"),
         ("layers.0.style.fill", "red", "layers[0].style.fill: 'red' is not a colour"),
-        ("layers.0.style.stroke_width", -1, "style.stroke_width: -1.0 is not a width"),
+        ("layers.0.style.stroke_width", -1, "style.stroke_width: -1.0 is not between 0"),
         ("layers.0.recipe.density", 10**9, "recipe.density: 1000000000 is not between"),
         ("layers.0.recipe.method", "magic", "recipe.method: Invalid enum value 'magic'."),
         ("layers.0.name", None, "layers[0].name: Expected `str`, got `null`."),

@@ -13,7 +13,8 @@ from core.geometry.flatten import flatten
 from core.io import importers
 from core.io.importers import Part
 from core.io.importers.svg import read
-from core.model import Outline
+from core.model import Document, Keyframe, Layer, Outline, Style
+from core.model.structure import problems
 
 NAMESPACES = (
     'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
@@ -163,8 +164,8 @@ def test_what_is_not_displayed_is_not_read() -> None:
         '<rect style="display:none" width="8" height="8"/>'
         '<rect visibility="hidden" width="8" height="8"/>'
         '<defs><rect width="7" height="7"/></defs><clipPath><rect width="9" height="9"/></clipPath>'
-        '<symbol><rect width="9" height="9"/></symbol>'
-        '<circle id="seen" r="5"/>'
+        '<symbol><rect width="9" height="9"/></symbol><mask><rect width="9" height="9"/></mask>'
+        '<marker><rect width="9" height="9"/></marker><circle id="seen" r="5"/>'
     )
     assert [found.name for found in parts(body)] == ["seen"]
 
@@ -178,6 +179,8 @@ def test_what_is_not_displayed_is_not_read() -> None:
         ('style="fill:blue;stroke:#010203"', ("#0000ff", "#010203", 1.0)),
         ('fill="red" fill-opacity="0.5"', ("#ff000080", "", 2.0)),
         ('fill="red" opacity="0.2"', ("#ff000033", "", 2.0)),
+        ('fill="red" opacity="20%"', ("#ff000033", "", 2.0)),
+        ('fill="red" opacity="nan"', ("#ff0000", "", 2.0)),
         ('class="leaf"', ("#00ff00", "", 2.0)),
         ('stroke="red" stroke-width="2" transform="scale(3)"', ("#000000", "#ff0000", 6.0)),
     ],
@@ -186,6 +189,16 @@ def test_the_style_is_kept(attributes: str, style: tuple[str, str, float]) -> No
     found = part(f"<style>.leaf{{fill:#00ff00}}</style><circle r='5' {attributes}/>").style
     assert found is not None
     assert (found.fill, found.stroke, found.stroke_width) == style
+
+
+@pytest.mark.parametrize("width", ["-3", "nan", "1e999", "1e99", "wide", ""])
+@pytest.mark.parametrize("side", [1e-9, 1.0, 1e9])
+def test_every_style_that_is_read_can_be_put_into_a_document(width: str, side: float) -> None:
+    head = f'viewBox="0 0 {side} {side}" width="100" height="100"'
+    body = f'<rect stroke="red" stroke-width="{width}" width="{side}" height="{side}"/>'
+    for found in importers.fitted(parts(body, head=head), (960.0, 540.0)):
+        layer = Layer(1, "", (Keyframe(1, found.outline),), style=found.style or Style())
+        assert not list(problems(Document((layer,))))
 
 
 def test_a_shape_that_is_not_painted_has_no_style() -> None:
@@ -251,6 +264,22 @@ def test_a_plain_drawing_gives_no_warning() -> None:
     assert warnings == []
 
 
+@pytest.mark.parametrize(
+    "head",
+    [
+        *('width="auto" height="auto"', 'width="0" height="0"', 'width="-5" height="5"'),
+        *('viewBox="0 0 0 0"', 'viewBox="0 0 -9 9"', 'viewBox="0 0 9"', 'viewBox="none"'),
+    ],
+)
+def test_a_size_without_extent_counts_as_none(head: str) -> None:
+    assert part('<rect width="5" height="4"/>', head).outline.bounds() == (0, 0, 5, 4)
+
+
+@pytest.mark.parametrize("path", ["<path/>", '<path d=""/>', '<path d="L1 1"/>', '<path d="M 1"/>'])
+def test_a_broken_path_spoils_no_other(path: str) -> None:
+    assert part(f'{path}<rect id="sound" width="5" height="4"/>').name == "sound"
+
+
 # -- harm --------------------------------------------------------------------------------------
 
 
@@ -276,6 +305,14 @@ def test_uses_that_multiply_without_end_are_refused() -> None:
 )
 def test_files_that_cannot_be_read_are_refused(text: str, said: str) -> None:
     assert said in refusal(text)
+
+
+def test_curves_that_lie_in_each_other_without_end_are_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("core.io.importers.nesting.MAX_OVERLAPS", 100)
+    rings = "".join(f"M{i} {i}H{99 - i}V{99 - i}H{i}z" for i in range(15))
+    assert "lie in or over each other" in refusal(f'<svg {NAMESPACES}><path d="{rings}"/></svg>')
 
 
 def test_entities_that_multiply_without_end_are_refused() -> None:

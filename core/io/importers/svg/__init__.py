@@ -11,6 +11,7 @@ from core.io.importers.part import MAX_NODES, Part, Warn, numbered, uniquely_nam
 from core.io.importers.svg.curves import rings_of
 from core.io.importers.svg.survey import NAME, survey
 from core.model import Style
+from core.model.structure import MOST_SIDE
 
 if TYPE_CHECKING:
     from svgelements import Color, Shape
@@ -48,7 +49,8 @@ def _parts(shape: Shape, warn: Warn) -> list[Part]:
         rings, opened = rings_of(path)
         style = _style(path)
     except BROKEN as error:
-        warn(f"“{name}” cannot be understood and is left out ({error}).")
+        why = f" ({error})" if isinstance(error, ValueError) else ""
+        warn(f"“{name}” cannot be understood and is left out{why}.")
         return []
     if not rings:
         warn(f"“{name}” has no area and is left out.")
@@ -71,18 +73,25 @@ def _style(path: Any) -> Style | None:
         fill = Style().fill
     if not fill and not stroke:
         return None
-    width = float(path.stroke_width) if stroke else Style().stroke_width
-    return Style(fill, stroke, width)
+    if not stroke:
+        return Style(fill, stroke)
+    return Style(fill, stroke, min(max(float(path.stroke_width), 0.0), MOST_SIDE))
 
 
 def _colour(colour: Color | None, opacity: Any) -> str:
     """Write a colour the way the model does."""
     if colour is None or colour.value is None:
         return ""
-    try:
-        visible = min(max(float(opacity), 0.0), 1.0)
-    except ValueError:
-        visible = 1.0
-    alpha = round(colour.alpha * visible)
+    alpha = round(colour.alpha * _share(opacity))
     solid = f"#{colour.red:02x}{colour.green:02x}{colour.blue:02x}"
     return solid if alpha == 255 else f"{solid}{alpha:02x}"
+
+
+def _share(opacity: Any) -> float:
+    """Return a number or a percentage as one in [0, 1]; 1 for what is neither."""
+    text = str(opacity).strip()
+    try:
+        share = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    except ValueError:
+        return 1.0
+    return max(0.0, min(1.0, share))  # in this order 1 for NaN

@@ -10,6 +10,7 @@ import numpy as np
 
 from core.model import Ring
 from core.model.outline import MIN_NODES, Array
+from core.model.structure import FARTHEST
 
 if TYPE_CHECKING:
     from svgelements import Arc, CubicBezier, Path
@@ -24,14 +25,14 @@ def rings_of(path: Path) -> tuple[list[Ring], bool]:
     """Return the closed curves of a path, and whether it had to close one that was open.
 
     The path is brought to its place in the drawing. Curves without area are left out. ValueError
-    for numbers that are not finite.
+    for numbers that cannot be drawn.
     """
     _replace_arcs(path)
     path.reify()
     drawn = [list(curve) for curve in _curves(path)]
     corners = [p for curve in drawn for p, *_ in curve]
-    if not all(np.isfinite(node[:3]).all() for curve in drawn for node in curve):
-        raise ValueError("a number is not finite")
+    if not all((np.abs(node[:3]) <= FARTHEST).all() for curve in drawn for node in curve):
+        raise ValueError("a number is too large")
     size = float(np.ptp(np.array(corners), axis=0).max()) if corners else 0.0
     rings, opened = [], False
     for curve in drawn:

@@ -6,6 +6,7 @@ titles; so the tree is checked and prepared here.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -16,6 +17,8 @@ from core.io.importers.part import Warn
 SVG = "{http://www.w3.org/2000/svg}"
 HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+SHELVED = ("symbol", "mask", "marker")
+"""What holds shapes that are drawn by reference only."""
 SHAPES = ("path", "rect", "circle", "ellipse", "polygon", "polyline", "line")
 
 NAME = "betwixt-name"
@@ -23,6 +26,9 @@ NAME = "betwixt-name"
 MAX_ELEMENTS = 50_000
 """Elements a file may have after every ``use`` is expanded."""
 
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_LENGTH = re.compile(r"\s*\+?(?=[\d.]*[1-9])[\d.]")
+"""The beginning of a length that is not zero."""
 _UNSUPPORTED = {
     "svg": "A nested <svg> may sit at the wrong place or size.",
     "text": "Text is left out; turn it into paths first.",
@@ -51,8 +57,9 @@ def survey(data: bytes, name: str, warn: Warn) -> bytes:
     for warning in sorted(set(_warnings(root))):
         warn(warning)
     _name_shapes(root, name)
+    _drop_broken_frame(root)
     _drop_broken_paths(root, warn)
-    _shelve_symbols(root)
+    _shelve(root)
     return ElementTree.tostring(root)
 
 
@@ -105,6 +112,16 @@ def _name_shapes(root: Element, drawing: str) -> None:
         element.set(NAME, name or (drawing if len(shapes) == 1 else f"{drawing} {number}"))
 
 
+def _drop_broken_frame(root: Element) -> None:
+    """Drop a size or a view box without extent: the parser would find nothing to draw."""
+    for name in ("width", "height"):
+        if not _LENGTH.match(root.get(name, "")):
+            root.attrib.pop(name, None)
+    *_, width, height = (*_NUMBER.findall(root.get("viewBox", "")), "0", "0")[:4]
+    if not (float(width) > 0 and float(height) > 0):
+        root.attrib.pop("viewBox", None)
+
+
 def _drop_broken_paths(root: Element, warn: Warn) -> None:
     """Empty the paths on which the parser would give up the whole drawing."""
     from svgelements import Path
@@ -112,8 +129,9 @@ def _drop_broken_paths(root: Element, warn: Warn) -> None:
     for element in root.iter():
         if _tag(element) != "path":
             continue
+        element.attrib.setdefault("d", "")
         try:
-            Path(element.get("d", ""))
+            Path(element.get("d"))
         except ValueError:
             pass  # it is drawn up to the mistake, as SVG asks
         except (ArithmeticError, LookupError, AttributeError, TypeError):
@@ -121,11 +139,11 @@ def _drop_broken_paths(root: Element, warn: Warn) -> None:
             element.set("d", "")
 
 
-def _shelve_symbols(root: Element) -> None:
-    """Put every symbol on the shelf that ``defs`` are, so that only its uses are drawn."""
+def _shelve(root: Element) -> None:
+    """Put what is drawn by reference only on the shelf that ``defs`` are."""
     for parent in list(root.iter()):
         for i, child in enumerate(parent):
-            if _tag(child) == "symbol":
+            if _tag(child) in SHELVED:
                 parent[i] = Element(f"{SVG}defs")
                 parent[i].append(child)
 
