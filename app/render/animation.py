@@ -9,6 +9,7 @@ import numpy as np
 from core.errors import FileError
 from core.io.exporters import Film, Size
 from core.io.exporters.apng import ApngWriter, Pixels
+from core.io.naming import file_in
 from core.io.replacing import staging
 from core.model.picture import Picture
 from core.progress import Progress
@@ -41,7 +42,7 @@ class AnimationFormat:
             raise FileError("There is no frame to export.")
         name = self.file_name(film, stem, 0)
         with staging(folder) as draft:
-            with (draft / name).open("wb") as file:
+            with file_in(draft, name).open("wb") as file:
                 writer = ApngWriter(file, len(pictures), film.fps)
                 for i, picture in enumerate(pictures):
                     progress(i / len(pictures), f"Frame {i + 1} of {len(pictures)}")

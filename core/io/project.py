@@ -17,13 +17,14 @@ import zlib
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 import numpy as np
 
 from core.errors import FileError, Where
-from core.io.replacing import replacing, unreadable
+from core.io.reading import read_whole
+from core.io.replacing import replacing
 from core.model import Document, Keyframe, Turning
 from core.model.structure import problems
 
@@ -44,7 +45,7 @@ _MADE = (1980, 1, 1, 0, 0, 0)
 
 class _Header(msgspec.Struct):
     format: str
-    version: int
+    version: Annotated[int, msgspec.Meta(ge=1)]
 
 
 class _File(msgspec.Struct):
@@ -65,13 +66,7 @@ def save(document: Document, path: Path | str) -> None:
 
 def load(path: Path | str) -> Document:
     """Read a project file; FileError names the place in it that is wrong."""
-    try:
-        if Path(path).stat().st_size > MAX_BYTES:
-            raise _refused(f"The file is larger than {MAX_BYTES >> 20} MB.", path)
-        data = Path(path).read_bytes()
-    except OSError as error:
-        raise unreadable(path, error) from error
-    return from_bytes(data, path)
+    return from_bytes(read_whole(path, MAX_BYTES), path)
 
 
 def to_bytes(document: Document) -> bytes:
@@ -92,7 +87,7 @@ def from_bytes(data: bytes, path: Path | str = "") -> Document:
     try:
         header = msgspec.json.decode(text, type=_Header)
         if header.format != "betwixt":
-            raise _refused(f"This is a {header.format!r} file, not a Betwixt project.", path)
+            raise _refused("The archive holds something else than a Betwixt project.", path)
         if header.version > VERSION:
             raise FileError(
                 f"The project was saved by a newer Betwixt (file version {header.version}; "

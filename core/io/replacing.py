@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from core.errors import FileError, Where
+from core.io.naming import require_name
 
 
 @contextmanager
@@ -17,12 +18,15 @@ def replacing(path: Path | str, *, flush: bool = True) -> Iterator[Path]:
     """Yield an empty temporary file in the same folder; it replaces ``path`` if all goes well.
 
     The old file stays untouched until then, and keeps its permissions afterwards. A link is
-    followed. ``flush`` waits until the disk has it, which is slow, and only worth it for what
-    cannot be made again. FileError when the system refuses.
+    followed; folders and devices are not replaced. ``flush`` waits until the disk has it, which is
+    slow, and only worth it for what cannot be made again. FileError when the system refuses.
     """
+    require_name(path)
     place = Path(os.path.realpath(path))
     draft = place.with_name(f".betwixt-{secrets.token_hex(6)}.tmp")
     try:
+        if place.exists() and not place.is_file():
+            raise FileError("There is a folder or a device of that name.", where=_at(path))
         draft.touch(exist_ok=False)
         yield draft
         if place.exists():
@@ -46,6 +50,7 @@ def staging(folder: Path | str) -> Iterator[Path]:
     Otherwise nothing is left of them: files of the same names stay as they were, and a folder that
     was made for them is gone again. FileError when the system refuses.
     """
+    require_name(folder)
     place = Path(folder)
     missing = [path for path in (place, *place.parents) if not path.exists()]
     hidden = place / f".betwixt-{secrets.token_hex(6)}"
@@ -58,6 +63,11 @@ def staging(folder: Path | str) -> Iterator[Path]:
         missing = []
     except OSError as error:
         raise unwritable(place, error) from error
+    except FileError as error:
+        if not Path(error.where.path).is_relative_to(draft):
+            raise
+        shown = place / Path(error.where.path).name
+        raise FileError(error.what, where=_at(shown), hint=error.hint) from error
     finally:
         shutil.rmtree(hidden, ignore_errors=True)
         for path in missing:
@@ -70,9 +80,7 @@ def _move_all(draft: Path, place: Path, old: Path) -> None:
     files = sorted(draft.iterdir())
     for file in files:
         if (place / file.name).is_dir():
-            raise FileError(
-                "There is a folder of the same name.", where=Where(path=str(place / file.name))
-            )
+            raise FileError("There is a folder of that name.", where=_at(place / file.name))
     moved: list[Path] = []
     try:
         for file in files:
@@ -93,14 +101,13 @@ def unwritable(path: Path | str, error: OSError) -> FileError:
     """Say why the system refused to write a file or folder."""
     return FileError(
         f"Cannot be written: {error.strerror or error}.",
-        where=Where(path=str(path)),
+        where=_at(path),
         hint="Choose another folder, or check its permissions and free space.",
     )
 
 
-def unreadable(path: Path | str, error: OSError) -> FileError:
-    """Say why the system refused to read a file."""
-    return FileError(f"Cannot be read: {error.strerror or error}.", where=Where(path=str(path)))
+def _at(path: Path | str) -> Where:
+    return Where(path=str(path))
 
 
 def _flush(path: Path) -> None:

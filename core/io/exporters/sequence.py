@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from core.errors import FileError
-from core.io.exporters.film import Film, Size
+from core.io.exporters.film import LONGEST_SIDE, Film, Size
+from core.io.naming import file_in
 from core.io.replacing import staging
 from core.model.picture import Picture
 from core.progress import Progress, silent
@@ -36,7 +37,7 @@ def export_sequence(
         for i, picture in enumerate(pictures):
             progress(i / len(pictures), f"Frame {i + 1} of {len(pictures)}")
             name = _numbered(stem, picture.frame, suffix)
-            write(picture, draft / name)
+            write(picture, file_in(draft, name))
             names.append(name)
         progress(1.0, "Done")
     return [folder / name for name in names]
@@ -71,6 +72,11 @@ class SequenceFormat:
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress
     ) -> list[Path]:
         """Write every picture of a film; see ``export_sequence``."""
+        if size and not all(1 <= side <= LONGEST_SIDE for side in size):
+            raise FileError(
+                f"A picture cannot have {size[0]} x {size[1]} pixels.",
+                hint=f"Choose 1 to {LONGEST_SIDE} for each side.",
+            )
 
         def write(picture: Picture, path: Path) -> None:
             self.write(picture, path, size)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from core.errors import FileError
 from core.io.exporters.film import Film, Size
+from core.io.naming import file_in
 from core.io.replacing import replacing, staging
 from core.progress import Progress
 
@@ -78,7 +79,7 @@ class VertexFormat:
                 done += len(positions)
                 name = self.file_name(film, stem, i)
                 write_vertices(
-                    draft / name,
+                    file_in(draft, name),
                     positions,
                     track.triangles,
                     track.rings,

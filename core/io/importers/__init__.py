@@ -10,7 +10,7 @@ from core.errors import FileError, Where
 from core.io.importers import points_csv, points_json, svg
 from core.io.importers.part import Part, Warn, ignore
 from core.io.importers.placing import bounds, fitted
-from core.io.replacing import unreadable
+from core.io.reading import read_whole
 
 MAX_BYTES = 64 * 2**20
 """Largest file that is read."""
@@ -45,18 +45,16 @@ def read(path: Path | str, warn: Warn = ignore) -> list[Part]:
     FileError when it cannot be read or holds no shape.
     """
     path = Path(path)
+    where = Where(path=str(path))
     found = next((f for f in FORMATS if path.suffix.lower() in f.suffixes), None)
+    if found is None:
+        known = ", ".join(suffix for f in FORMATS for suffix in f.suffixes)
+        raise FileError(f"The format is not known; it can be {known}.", where=where)
+    data = read_whole(path, MAX_BYTES)
     try:
-        if found is None:
-            known = ", ".join(suffix for f in FORMATS for suffix in f.suffixes)
-            raise FileError(f"The format is not known; it can be {known}.")
-        if path.stat().st_size > MAX_BYTES:
-            raise FileError(f"The file is larger than {MAX_BYTES >> 20} MB.")
-        return parse(path.read_bytes(), path.stem, found, warn)
-    except OSError as error:
-        raise unreadable(path, error) from error
+        return parse(data, path.stem, found, warn)
     except FileError as error:
-        raise FileError(error.what, where=Where(path=str(path)), hint=error.hint) from error
+        raise FileError(error.what, where=where, hint=error.hint) from error
 
 
 def parse(data: bytes, name: str, form: ImportFormat, warn: Warn = ignore) -> list[Part]:

@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 
 from core.errors import Cancelled, FileError
 from core.io import exporters
-from core.io.exporters import SVG, VERTICES, Track
+from core.io.exporters import SVG, VERTICES, Size, Track
 from core.io.exporters.sequence import export_sequence
 from core.io.exporters.svg import drawing, write_picture
 from core.io.exporters.vertices import write_vertices
 from core.io.importers.svg import read
-from core.io.replacing import staging
+from core.io.replacing import replacing, staging
 from core.model import Style
 from core.model.picture import Picture, Shape
 from core.progress import silent
@@ -207,6 +207,34 @@ def test_a_drawing_is_written_whole(tmp_path: Path) -> None:
     write_picture(picture(), tmp_path / "a.svg")
     assert (tmp_path / "a.svg").read_text(encoding="utf-8") == drawing(picture())
     assert names(tmp_path) == ["a.svg"]
+
+
+@pytest.mark.parametrize("stem", ["a/b", "../b", "/tmp/b"])
+@pytest.mark.parametrize("form", exporters.FORMATS)
+def test_no_name_leads_out_of_the_folder(
+    tmp_path: Path, form: exporters.ExportFormat, stem: str
+) -> None:
+    film = Film()
+    film.tracks = [track()]
+    with pytest.raises(FileError, match="not the name of a file"):
+        form.export(film, tmp_path / "in", stem, None, silent)
+    assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize("size", [(0, 0), (0, 5), (-5, 5), (10**6, 5)])
+def test_a_size_that_no_picture_can_have_is_refused(tmp_path: Path, size: Size) -> None:
+    with pytest.raises(FileError, match=f"{size[0]} x {size[1]}"):
+        SVG.export(Film(), tmp_path, "run", size, silent)
+
+
+def test_an_error_names_the_file_that_was_to_be(tmp_path: Path) -> None:
+    def fail(picture: Picture, path: Path) -> None:
+        with replacing(path, flush=False):
+            raise OSError(28, "No space left on device")
+
+    with pytest.raises(FileError) as caught:
+        export_sequence(Film.pictures, tmp_path, "run", ".txt", fail)
+    assert caught.value.where.path == str(tmp_path / "run-0003.txt")
 
 
 # -- vertices ----------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ import stat
 import zipfile
 from contextlib import suppress
 from dataclasses import fields, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -234,6 +235,11 @@ def test_a_newer_version_is_refused_with_advice() -> None:
     assert "Update" in said
 
 
+@pytest.mark.parametrize("version", [0, -1])
+def test_a_version_that_never_was_is_refused(version: int) -> None:
+    assert "version" in refusal(packed(as_json() | {"version": version}))
+
+
 def test_other_zip_files_are_refused() -> None:
     assert "document.json" in refusal(packed({}, name="other.json"))
     assert "not a Betwixt project" in refusal(packed(as_json() | {"format": "other"}))
@@ -326,6 +332,27 @@ def test_saving_again_keeps_permissions_and_links(tmp_path: Path) -> None:
 def test_saving_where_there_is_no_folder_says_so(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="No such file or directory"):
         project.save(DOCUMENT, tmp_path / "missing" / "a.betwixt")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+def test_what_is_no_file_is_neither_replaced_nor_waited_for(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.betwixt"
+    os.mkfifo(pipe)
+    for place in (pipe, tmp_path):
+        before = os.stat(place).st_mode
+        with pytest.raises(FileError, match="folder or a device"):
+            project.save(DOCUMENT, place)
+        with pytest.raises(FileError, match="folder or a device"):
+            project.load(place)
+        assert os.stat(place).st_mode == before
+    assert os.listdir(tmp_path) == [pipe.name]
+
+
+@pytest.mark.parametrize("name", ["a\0b", "a\ud800b"])
+def test_a_name_that_no_file_can_have_is_refused(tmp_path: Path, name: str) -> None:
+    for act in (partial(project.save, DOCUMENT), project.load):
+        with pytest.raises(FileError, match="No file can have the name"):
+            act(tmp_path / name)
 
 
 def test_loading_what_is_not_there_says_so(tmp_path: Path) -> None:
