@@ -87,7 +87,7 @@ def from_bytes(data: bytes, path: Path | str = "") -> Document:
     try:
         header = msgspec.json.decode(text, type=_Header)
         if header.format != "betwixt":
-            raise _refused("The archive holds something else than a Betwixt project.", path)
+            raise _refused("This is not a Betwixt project.", path)
         if header.version > VERSION:
             raise FileError(
                 f"The project was saved by a newer Betwixt (file version {header.version}; "

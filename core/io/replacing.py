@@ -80,7 +80,7 @@ def _move_all(draft: Path, place: Path, old: Path) -> None:
     files = sorted(draft.iterdir())
     for file in files:
         if (place / file.name).is_dir():
-            raise FileError("There is a folder of that name.", where=_at(place / file.name))
+            raise FileError("There is a folder of the same name.", where=_at(place / file.name))
     moved: list[Path] = []
     try:
         for file in files:
