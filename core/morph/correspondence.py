@@ -10,9 +10,9 @@ from typing import Self
 import numpy as np
 
 from core.errors import MarkError, Where
+from core.geometry.clean_outline import CleanOutline
 from core.geometry.places import tracks
 from core.geometry.polyline import arc_lengths, points_at, resample
-from core.geometry.validate import CleanOutline
 from core.model import Outline, RingPoint
 from core.model.outline import Array
 from core.morph.boundary import BoundaryPair, MatchedRing, correspond

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.errors import MarkError, OutlineError, Where
+from core.errors import MarkError, OutlineError, SolveError, Where
 from core.model import Outline, Recipe, RingPoint
 from core.morph.morph import Morph
 from core.morph.pipeline import solve_outlines
@@ -37,8 +37,11 @@ def solve(
     with those of the target; ``(ring, vertex)`` reaches holes. Without marks the outlines are
     matched by their features. ``progress(fraction, stage)`` may raise ``Cancelled``.
 
-    Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint.
+    Raises ``OutlineError``, ``MarkError`` or ``SolveError``, each with what, where and a hint; they
+    call marks by their indices.
     """
+    if not isinstance(recipe, Recipe | None):
+        raise SolveError(f"The recipe is {recipe!r}, not a Recipe.")
     ends = _outline(source, "source"), _outline(target, "target")
     given = () if marks is None else marks
     if not np.iterable(given):
@@ -46,19 +49,22 @@ def solve(
             f"The marks are {given}, not a list of pairs.", hint="Give [(vertex, vertex), …]."
         )
     pairs = [_places(ends, pair, i) for i, pair in enumerate(given)]
-    return solve_outlines(*ends, pairs, recipe=recipe, progress=progress)
+    names = [f"{i}" for i in range(len(pairs))]
+    return solve_outlines(*ends, pairs, labels=names, recipe=recipe, progress=progress)
 
 
 def _outline(given: Shape, side: str) -> Outline:
     if isinstance(given, Outline):
         return given
     try:
-        parts = list(given)  # type: ignore[arg-type]
-        rings = parts if np.ndim(parts[0]) == 2 else [parts]
-        return Outline.polygon(*(np.asarray(ring, dtype=float) for ring in rings))
-    except (IndexError, TypeError, ValueError) as problem:
+        parts: list[Any] = list(given)  # type: ignore[arg-type]
+        rings = parts if parts and np.ndim(parts[0]) == 2 else [parts]
+        if any(np.iscomplexobj(ring) for ring in rings):
+            raise TypeError("they are complex")
+        return Outline.polygon(*rings)
+    except (TypeError, ValueError) as problem:
         raise OutlineError(
-            f"The {side} is not an (n, 2) array of numbers: {problem}.",
+            f"The {side} is not an (n, 2) array of numbers: {str(problem).rstrip('.')}.",
             where=Where(side),
             hint="Give the points of one closed polygon, or an Outline for holes.",
         ) from None

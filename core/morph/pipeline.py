@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from itertools import islice
-from numbers import Integral
+from numbers import Integral, Real
 from time import perf_counter
 from typing import get_args
 
 import numpy as np
 
 from core.errors import SolveError, Where
+from core.geometry.basis import Basis
+from core.geometry.clean_outline import CleanOutline
+from core.geometry.extent import check_together
 from core.geometry.flatten import flatten
 from core.geometry.triangulation import Indices
-from core.geometry.validate import CleanOutline, check_together, clean
+from core.geometry.validate import clean
 from core.model import Outline, Recipe, RingPoint
 from core.model.layer import mark_labels
 from core.model.outline import Array
@@ -26,7 +29,7 @@ from core.morph.morph import Morph
 from core.morph.motion.motion import Motion
 from core.morph.quality import folds, smallest_angle
 from core.morph.report import Report, Stage
-from core.morph.rivals import Basis, choose
+from core.morph.rivals import choose
 from core.progress import Progress, Watch, silent
 
 POOR = 1.2
@@ -123,9 +126,10 @@ def _check_recipe(recipe: Recipe) -> None:
             f"A mesh density of {recipe.density} is out of range.",
             hint=f"Choose {LEAST_DENSITY} to {MOST_DENSITY} boundary vertices, a whole number.",
         )
-    if not (0 <= recipe.lam < np.inf and 0 < recipe.mu < np.inf):
+    numbers = all(isinstance(value, Real) for value in (recipe.mu, recipe.lam))
+    if not (numbers and 0 <= recipe.lam < np.inf and 0 < recipe.mu < np.inf):
         raise SolveError(
-            f"A material with μ = {recipe.mu:g} and λ = {recipe.lam:g} is not elastic.",
+            f"A material with μ = {recipe.mu} and λ = {recipe.lam} is not elastic.",
             hint="Choose μ above 0, and λ at 0 or above.",
         )
 

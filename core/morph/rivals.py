@@ -14,8 +14,8 @@ from typing import Self
 import numpy as np
 
 from core.errors import MarkError, SolveError
+from core.geometry.basis import Basis
 from core.geometry.crossing import crosses_itself
-from core.geometry.validate import CleanOutline
 from core.model import Recipe
 from core.model.outline import Array
 from core.morph.correspondence import Correspondence, Way
@@ -38,31 +38,6 @@ MENDABLE = 20.0
 """What a triangle counts at most: mending will put right what is worse, or folded."""
 SKETCH = 256
 """Boundary vertices by which rivals are told apart: finer maps take longer, and say the same."""
-
-
-@dataclass(frozen=True, eq=False)
-class Basis:
-    """An end's own coordinates: at unit area, tolerances and energies mean the same for all."""
-
-    origin: Array
-    unit: float
-
-    @classmethod
-    def of(cls, end: CleanOutline) -> Self:
-        """Take the coordinates of an outline."""
-        return cls(end.rings[0].mean(axis=0), float(np.sqrt(end.area)))
-
-    def amid(self, other: Basis) -> Self:
-        """Return coordinates of a size midway to another's, whichever of them comes first."""
-        return replace(self, unit=float(np.sqrt(self.unit * other.unit)))
-
-    def inside(self, points: Array) -> Array:
-        """Return points (n, 2) in these coordinates."""
-        return (points - self.origin) / self.unit
-
-    def outside(self, points: Array) -> Array:
-        """Return points (n, 2) as they were drawn."""
-        return self.origin + self.unit * points
 
 
 @dataclass(frozen=True, eq=False)

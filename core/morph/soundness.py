@@ -11,6 +11,8 @@ from typing import Self
 import numpy as np
 import shapely
 
+from core.geometry.crossing import crosses_itself, first_fault
+from core.geometry.distance import departure, edges_of
 from core.geometry.flatten import flatten
 from core.model.outline import Array, Outline
 from core.morph.morph import Morph
@@ -114,27 +116,19 @@ def crossings(rings: Sequence[Array]) -> Array:
 
     Rings that only touch, or lie in the wrong place, count as one.
     """
-    polygon = shapely.Polygon(rings[0], rings[1:])
-    if polygon.is_valid:
+    if not crosses_itself(rings):
         return np.empty((0, 2))
-    edges = np.concatenate([np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings])
-    segments = shapely.linestrings(edges)
+    segments = edges_of(rings)
     one, other = shapely.STRtree(segments).query(segments, predicate="crosses")
     once = one < other
     places = shapely.get_coordinates(
         shapely.intersection(segments[one[once]], segments[other[once]])
     )
-    return places if len(places) else _named_place(shapely.is_valid_reason(polygon))
-
-
-def _named_place(reason: str) -> Array:
-    """Return (1, 2) the place in a reason such as "Ring Self-intersection[2 0]"."""
-    place = reason[reason.index("[") + 1 : -1].split()
-    return np.array([place], dtype=float)
+    return places if len(places) else first_fault(rings)[1].reshape(-1, 2)
 
 
 def _end_error(outline: Outline, morph: Morph, s: float) -> float:
-    """Measure both ways, so that a cut corner counts as well as a vertex that strays.
+    """Return how far a frame is from an outline, as a fraction of the outline's diagonal.
 
     All rings at once: the target's holes may have been drawn in another order than the source's.
     """
@@ -142,10 +136,4 @@ def _end_error(outline: Outline, morph: Morph, s: float) -> float:
     drawn = [line.points for line in flatten(outline)]
     found = [points[ring] for ring in morph.rings]
     size = float(np.hypot(*np.ptp(np.concatenate(drawn), axis=0)))
-    return max(_farthest(drawn, found), _farthest(found, drawn)) / size
-
-
-def _farthest(rings: Sequence[Array], others: Sequence[Array]) -> float:
-    """Return the largest distance of a vertex of rings (k, 2) from the edges of others."""
-    edges = shapely.multilinestrings([shapely.linearrings(ring) for ring in others])
-    return float(shapely.distance(shapely.points(np.concatenate(rings)), edges).max())
+    return departure(drawn, found) / size

@@ -6,13 +6,13 @@ same place of it at both keys: a limb's where it turns, a wheel's at its hub.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 import shapely
 
+from core.geometry.distance import distances
 from core.geometry.flatten import flatten
 from core.geometry.rotation import wrap
 from core.geometry.triangulation import Indices
@@ -184,20 +184,10 @@ def _joined(points: Array, carrier: Run, frame: float) -> Indices:
     shapely.prepare(polygon)
     on: Indices = np.flatnonzero(shapely.intersects_xy(polygon, *points.T))
     if len(on) < LEAST_POINTS:
-        distance = _distances(points, rings)
+        distance = distances(points, rings)
         distance[on] = 0
         on = np.argsort(distance, kind="stable")[:LEAST_POINTS]
     return on[:: 1 + len(on) // MOST_POINTS]
-
-
-def _distances(points: Array, rings: Sequence[Array]) -> Array:
-    """Return the distances (n,) of points (n, 2) from rings."""
-    edges = [np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings]
-    tree = shapely.STRtree(shapely.linestrings(np.concatenate(edges)))
-    _, distance = tree.query_nearest(
-        shapely.points(points), all_matches=False, return_distance=True
-    )
-    return cast(Array, distance)
 
 
 def hinge(points: Array, slid: Array, close: float) -> Array:

@@ -5,7 +5,8 @@ from hypothesis import strategies as st
 from shapely import Polygon
 
 from core.errors import OutlineError
-from core.geometry.mend import HAIRS, separate
+from core.geometry.mending.meetings import separate
+from core.geometry.mending.mend import HAIRS
 from core.geometry.polyline import arc_lengths, points_at
 from core.geometry.validate import clean
 from tests.core.shapes import ellipse, rotation

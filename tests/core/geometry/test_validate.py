@@ -5,8 +5,9 @@ from hypothesis import strategies as st
 from shapely import Polygon
 
 from core.errors import OutlineError
+from core.geometry.extent import check_together
 from core.geometry.polyline import arc_lengths, points_at, signed_area
-from core.geometry.validate import check_together, clean
+from core.geometry.validate import clean
 from tests.core.shapes import ellipse, letter_l, square_ring, star_shaped
 
 
@@ -52,6 +53,14 @@ def test_a_size_beyond_what_can_be_computed_is_refused(scale):
 def test_fewer_than_three_distinct_points_are_refused(points):
     with pytest.raises(OutlineError):
         clean([np.array(points, dtype=float).reshape(-1, 2)], "source")
+
+
+@pytest.mark.parametrize("size", [1.0, 0.999])
+def test_a_hole_that_takes_up_all_of_the_outline_leaves_nothing(size):
+    exterior, _ = square_ring()
+    hole = exterior * [1, size]
+    with pytest.raises(OutlineError, match="encloses no area"):
+        clean([exterior, hole], "source")
 
 
 def test_points_on_a_line_enclose_nothing():

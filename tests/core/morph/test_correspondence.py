@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.errors import Cancelled, MarkError
+from core.geometry.clean_outline import CleanOutline
 from core.geometry.polyline import arc_lengths, points_at, signed_area
-from core.geometry.validate import CleanOutline, clean
+from core.geometry.validate import clean
 from core.model import Outline, RingPoint
 from core.model.outline import Array
 from core.morph.boundary import BoundaryPair

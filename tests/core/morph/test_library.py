@@ -85,6 +85,7 @@ def test_holes_without_partners_are_named_as_many_as_there_are(source, target, h
         {"mu": 0.0},
         {"lam": -1.0},
         {"mu": np.nan},
+        {"mu": "soft"},
         {"method": "magic"},
         {"material": "jelly"},
     ],
@@ -92,6 +93,23 @@ def test_holes_without_partners_are_named_as_many_as_there_are(source, target, h
 def test_a_recipe_that_makes_no_sense_is_refused(recipe):
     with pytest.raises(core.SolveError, match=r"density|elastic|no method|no material"):
         core.solve(ellipse(), letter_l(), recipe=core.Recipe(**recipe))
+
+
+def test_what_is_no_recipe_is_refused():
+    with pytest.raises(core.SolveError, match="not a Recipe"):
+        core.solve(ellipse(), letter_l(), recipe={"density": 20})
+
+
+@pytest.mark.parametrize("points", [ellipse() * 1j, [[0, 0], [1], [1, 1]], np.zeros((4, 3)), 5])
+def test_points_that_are_no_pairs_of_numbers_are_refused(points):
+    with pytest.raises(core.OutlineError, match="The target is not an") as caught:
+        core.solve(ellipse(), points)
+    assert ".." not in str(caught.value)
+
+
+def test_errors_call_marks_by_their_indices():
+    with pytest.raises(core.MarkError, match="Marks 0 and 2 lie on the same point"):
+        core.solve(ellipse(), letter_l(), [(4, 0), (9, 3), (4, 1)])
 
 
 def test_frames_cannot_be_written_to():

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import core
 from core.errors import MarkError, MorphError, OutlineError, SolveError
 from core.geometry.crossing import crosses_itself
-from core.geometry.mend import HAIRS
+from core.geometry.mending.mend import HAIRS
 from core.model.outline import Array
 from core.morph.morph import Morph
 from core.morph.quality import folds
