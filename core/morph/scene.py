@@ -69,7 +69,7 @@ class TimedSpan:
         return self.easing((frame - self.first) / (self.last - self.first))
 
 
-class Frames(Protocol):
+class Rendition(Protocol):
     """What is seen of a solution."""
 
     @property
@@ -85,8 +85,8 @@ class Frames(Protocol):
         ...
 
 
-F = TypeVar("F", bound=Frames)
-FramesOf = Callable[[Span], F | None]
+R = TypeVar("R", bound=Rendition)
+RenditionOf = Callable[[Span], R | None]
 """Looks up what is seen of a span's solution; None while there is none."""
 MorphOf = Callable[[Span], "Morph | None"]
 """Looks a span's solution up; None while there is none."""
@@ -132,34 +132,34 @@ def solve_span(span: Span, progress: Progress = silent) -> Morph:
 
 
 def layer_rings(
-    document: Document, layer: Layer, frame: float, frames_of: FramesOf[F]
+    document: Document, layer: Layer, frame: float, rendition_of: RenditionOf[R]
 ) -> tuple[Array, ...]:
     """Return what a layer shows at a frame, as closed polylines (k, 2), exterior first.
 
     Between keys it is the in-between at the eased time; a key, and a span that has no solution
     yet, shows the keyframe's own outline. What it hangs on carries it along.
     """
-    return _rings(layer, frame, frames_of, carrying(document, frames_of))
+    return _rings(layer, frame, rendition_of, carrying(document, rendition_of))
 
 
-def picture_at(document: Document, frame: float, frames_of: FramesOf[F]) -> Picture:
+def picture_at(document: Document, frame: float, rendition_of: RenditionOf[R]) -> Picture:
     """Return the visible layers at a frame."""
-    carry = carrying(document, frames_of)
+    carry = carrying(document, rendition_of)
     shapes = tuple(
-        Shape(layer.id, layer.name, layer.style, _rings(layer, frame, frames_of, carry))
+        Shape(layer.id, layer.name, layer.style, _rings(layer, frame, rendition_of, carry))
         for layer in document.layers
         if layer.visible
     )
     return Picture(frame, document.size, document.background, shapes)
 
 
-def carrying(document: Document, frames_of: FramesOf[F]) -> Carry:
+def carrying(document: Document, rendition_of: RenditionOf[R]) -> Carry:
     """Return a function that gives the motion of any layer with its carrier."""
     if all(layer.carrier is None for layer in document.layers):
         return lambda layer, frame: STILL
     from core.morph.hanging.carriers import Carriers  # shapely loads where layers hang, not before
 
-    return Carriers(document, frames_of)
+    return Carriers(document, rendition_of)
 
 
 def turn_of(document: Document, layer: Layer, index: int, morph_of: MorphOf) -> float | None:
@@ -206,8 +206,10 @@ def keyframe_at(
     return Keyframe(frame, outline, marks, turning=after), before
 
 
-def _rings(layer: Layer, frame: float, frames_of: FramesOf[F], carry: Carry) -> tuple[Array, ...]:
-    index, s, frames = _shown(layer, frame, frames_of)
+def _rings(
+    layer: Layer, frame: float, rendition_of: RenditionOf[R], carry: Carry
+) -> tuple[Array, ...]:
+    index, s, frames = _shown(layer, frame, rendition_of)
     if frames is None:
         rings = tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
     else:
@@ -216,11 +218,11 @@ def _rings(layer: Layer, frame: float, frames_of: FramesOf[F], carry: Carry) -> 
     return tuple(map(carry(layer, frame), rings))
 
 
-def _shown(layer: Layer, frame: float, frames_of: FramesOf[F]) -> tuple[int, float, F | None]:
+def _shown(layer: Layer, frame: float, rendition_of: RenditionOf[R]) -> tuple[int, float, R | None]:
     """Return the span at a frame, s in it, and its solution; None where a key itself shows."""
     index, s = layer.progress_at(frame)
     between = s not in (0.0, 1.0)  # an easing may also overshoot
-    return index, s, frames_of(span_of(layer, index)) if between else None
+    return index, s, rendition_of(span_of(layer, index)) if between else None
 
 
 def _nearest_key(layer: Layer, index: int, s: float) -> Keyframe:

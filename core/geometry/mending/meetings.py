@@ -32,6 +32,16 @@ def separate(rings: Sequence[Array]) -> bool:
     return len(Edges(rings).touches()[0]) == 0
 
 
+def merged(points: Array) -> Indices:
+    """Return (n,) the first of all points (n, 2) that touch each."""
+    spots = shapely.points(points)
+    pairs = STRtree(spots).query(spots, predicate="dwithin", distance=TOUCH)
+    graph = coo_array((np.ones(pairs.shape[1]), tuple(pairs)), shape=(len(points),) * 2)
+    _, label = connected_components(graph, directed=False)
+    _, first = np.unique(label, return_index=True)
+    return first[label]
+
+
 class Edges:
     """The edges of all rings, numbered by the vertex they start from."""
 
@@ -74,22 +84,13 @@ class Edges:
         inner = ~np.isin(self._pair(first, second), np.concatenate(near))
         return first[inner], second[inner]
 
-    def joined(self, touches: Pairs) -> tuple[Indices, Pairs]:
-        """Make vertices that touch one.
-
-        Returns (n,) the vertex that each is now, and the touches that are not at an edge's end.
-        """
+    def within(self, touches: Pairs) -> Pairs:
+        """Return the touches that are not at an end of the edge."""
         vertex, edge = touches
-        at_start, at_end = (
-            np.hypot(*(self.start[vertex] - end[edge]).T) <= TOUCH for end in (self.start, self.end)
-        )
-        one = np.concatenate([vertex[at_start], vertex[at_end]])
-        other = np.concatenate([edge[at_start], self.after[edge[at_end]]])
-        graph = coo_array((np.ones(len(one)), (one, other)), shape=(len(self.start),) * 2)
-        _, label = connected_components(graph, directed=False)
-        _, first = np.unique(label, return_index=True)
-        inner = ~(at_start | at_end)
-        return first[label], (vertex[inner], edge[inner])
+        inner = np.ones(len(vertex), bool)
+        for end in (self.start, self.end):
+            inner &= np.hypot(*(self.start[vertex] - end[edge]).T) > TOUCH
+        return vertex[inner], edge[inner]
 
     def along(self, touches: Pairs) -> Array:
         """Return (k,) at which fraction of its edge each vertex touches it."""

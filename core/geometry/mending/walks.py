@@ -9,7 +9,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from core.geometry.mending.meetings import Edges
+from core.geometry.mending.meetings import Edges, merged
 from core.geometry.origin import Origin
 from core.geometry.polyline import signed_area
 from core.model.outline import Array
@@ -52,12 +52,14 @@ class Walks:
         edges = Edges(rings)
         touches = edges.touches()
         crossings = edges.crossings(touches)
-        node, touches = edges.joined(touches)
+        touches = edges.within(touches)
         crossing, *shares = edges.crossing_points(crossings)
+        points = np.concatenate([edges.start, crossing])
+        node = merged(points)
         number = len(edges.start) + np.arange(len(crossing))
         on = np.concatenate([touches[1], *crossings])
         at = np.concatenate([edges.along(touches), *shares])
-        what = np.concatenate([node[touches[0]], number, number])
+        what = node[np.concatenate([touches[0], number, number])]
         inserted = defaultdict(list)
         for edge, u, new in sorted(zip(on.tolist(), at.tolist(), what.tolist(), strict=True)):
             inserted[edge].append((u, new))
@@ -69,7 +71,6 @@ class Walks:
                 walk += [Step(new, *[origin.between(i, u)] * 2) for u, new in inserted[edge]]
                 edge += 1
             walks.append(walk)
-        points = np.concatenate([edges.start, crossing])
         sizes = [origin.size for origin in origins]
         return cls(points, walks, sizes, len(edges.start), [False] * len(walks))
 

@@ -12,19 +12,19 @@ from core.model.outline import Array
 from core.morph.hanging.rigid import STILL, RigidMotion
 from core.morph.hanging.run import Run, Stretch
 from core.morph.morph import Morph
-from core.morph.scene import F, FramesOf, Span, span_of
+from core.morph.scene import R, RenditionOf, Span, span_of
 
 
-class Carriers(Generic[F]):
+class Carriers(Generic[R]):
     """The motions that layers get from their carriers, for one document.
 
     What is found for a layer is kept for those that hang on it, and with it the solutions shown.
     """
 
-    def __init__(self, document: Document, frames_of: FramesOf[F]) -> None:
-        self._document, self._frames_of = document, frames_of
+    def __init__(self, document: Document, rendition_of: RenditionOf[R]) -> None:
+        self._document, self._frames_of = document, rendition_of
         self._runs: dict[int, Run] = {}
-        self._frames: dict[Morph, F] = {}
+        self._frames: dict[Morph, R] = {}
         self._last: dict[Morph, tuple[float, Array]] = {}
 
     def __call__(self, layer: Layer, frame: float) -> RigidMotion:

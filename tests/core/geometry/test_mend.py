@@ -1,6 +1,8 @@
+from contextlib import suppress
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from shapely import Polygon
 
@@ -109,6 +111,22 @@ def test_a_vertex_a_trace_beside_or_across_an_edge_counts_as_on_it(turn, y, besi
     result = clean([np.roll(points, turn, axis=0)], "source")
     assert "opened" in str(result.repairs[0])
     assert separate([result.rings[0] / 15])
+
+
+@settings(max_examples=300)
+@given(
+    st.lists(st.tuples(st.integers(0, 30), st.integers(0, 30)), min_size=3, max_size=9),
+    st.lists(st.tuples(st.integers(0, 8), st.integers(-1, 1), st.integers(-1, 1)), max_size=4),
+)
+@example([(0, 0), (30, 0), (30, 30), (13, 30), (15, 30), (15, 29), (13, 31), (0, 30)], [])
+def test_what_is_drawn_on_a_grid_comes_out_simple_or_is_refused(corners, spikes):
+    points = [np.array(corner, float) for corner in corners]
+    for at, x, y in spikes:
+        here, aside = points[at % len(points)], np.array([x, y])
+        points[at % len(points) : at % len(points)] = [here, here + aside, here - aside[::-1]]
+    with suppress(OutlineError):
+        (ring,) = clean([np.array(points)], "source").rings
+        assert Polygon(ring).is_valid
 
 
 @pytest.mark.parametrize("points", [np.random.default_rng(1).random((3000, 2)), "bow tie"])
