@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 import numpy as np
 
-from core.io.exporters import Track
+from core.io.exporters import MovingMesh
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.model.picture import Picture
@@ -43,14 +43,12 @@ class DocumentFilm:
         return self.document.fps
 
     @property
-    def tracks(self) -> Sequence[Track]:
+    def meshes(self) -> Sequence[MovingMesh]:
         """The meshes of the visible layers, one a span."""
-        return [
-            track for layer in self.document.layers if layer.visible for track in self._of(layer)
-        ]
+        return [mesh for layer in self.document.layers if layer.visible for mesh in self._of(layer)]
 
     @property
-    def track_count(self) -> int:
+    def mesh_count(self) -> int:
         """How many meshes that are; each span has a frame of its own."""
         ends = [
             [layer.span_at(frame)[0] for frame in self.frames]
@@ -64,7 +62,7 @@ class DocumentFilm:
         picture = picture_at(self.document, frame, self.morph_of)
         return picture if self.background is None else replace(picture, background=self.background)
 
-    def _of(self, layer: Layer) -> Iterator[Track]:
+    def _of(self, layer: Layer) -> Iterator[MovingMesh]:
         first, last = self.frames
         by_span: dict[int, list[int]] = {}
         for frame in range(first, last + 1):
@@ -80,7 +78,9 @@ class DocumentFilm:
             else:
                 triangles, boundary = morph.triangles, morph.rings
                 place = partial(_vertices, layer, morph, carry)
-            yield Track(layer.name, _Computed(place, frames), triangles, boundary, frames, times)
+            yield MovingMesh(
+                layer.name, _Computed(place, frames), triangles, boundary, frames, times
+            )
 
     def _outline(self, layer: Layer, frame: int) -> Array:
         """Return the vertices of a layer without a mesh, ring after ring."""

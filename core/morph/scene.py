@@ -209,12 +209,12 @@ def keyframe_at(
 def _rings(
     layer: Layer, frame: float, rendition_of: RenditionOf[R], carry: Carry
 ) -> tuple[Array, ...]:
-    index, s, frames = _shown(layer, frame, rendition_of)
-    if frames is None:
+    index, s, rendition = _shown(layer, frame, rendition_of)
+    if rendition is None:
         rings = tuple(line.points for line in flatten(_nearest_key(layer, index, s).outline))
     else:
-        positions = frames.at(s)
-        rings = tuple(positions[ring] for ring in frames.rings)
+        positions = rendition.at(s)
+        rings = tuple(positions[ring] for ring in rendition.rings)
     return tuple(map(carry(layer, frame), rings))
 
 

@@ -185,36 +185,36 @@ def test_a_picture_is_the_same_with_and_without_an_application(
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
-def test_vertex_tracks_hold_the_frames_of_each_span_once() -> None:
+def test_vertex_meshes_hold_the_frames_of_each_span_once() -> None:
     shown = document(Easing(), Easing(hold=True), Easing())
     film = DocumentFilm(shown, (0, 12), solve_all(shown).get)
-    first, second = film.tracks
-    assert [list(track.frames) for track in (first, second)] == [[0, 1, 2, 3, 4], [*range(5, 13)]]
-    for track in (first, second):
-        for frame, time, positions in zip(track.frames, track.times, track.positions, strict=True):
+    first, second = film.meshes
+    assert [list(mesh.frames) for mesh in (first, second)] == [[0, 1, 2, 3, 4], [*range(5, 13)]]
+    for mesh in (first, second):
+        for frame, time, positions in zip(mesh.frames, mesh.times, mesh.positions, strict=True):
             assert time == (frame - 1) / 24
-            [ring] = track.rings
+            [ring] = mesh.rings
             [shape] = film.picture(frame).shapes
             gap = np.abs(positions[ring][:, None] - shape.rings[0]).max(axis=2).min(axis=0)
             assert gap.max() < 1e-9
 
 
-def test_no_frame_of_a_track_is_made_before_it_is_asked_for(
+def test_no_frame_of_a_mesh_is_made_before_it_is_asked_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     shown, made, at = document(Easing(), Easing()), [], Morph.at
     film = DocumentFilm(shown, (1, 5), solve_all(shown).get)
     monkeypatch.setattr(Morph, "at", lambda morph, s: made.append(s) or at(morph, s))
-    [track] = film.tracks
+    [mesh] = film.meshes
     assert made == []
-    assert track.positions[2] is not None
+    assert mesh.positions[2] is not None
     assert made == [0.5]
 
 
-def test_a_layer_with_one_keyframe_is_a_track_without_triangles() -> None:
-    [track] = DocumentFilm(document(Easing()), (1, 3), lambda _: None).tracks
-    assert len(track.triangles) == 0
-    np.testing.assert_array_equal(track.positions[2], BAR.rings[0].points)
+def test_a_layer_with_one_keyframe_is_a_mesh_without_triangles() -> None:
+    [mesh] = DocumentFilm(document(Easing()), (1, 3), lambda _: None).meshes
+    assert len(mesh.triangles) == 0
+    np.testing.assert_array_equal(mesh.positions[2], BAR.rings[0].points)
 
 
 def test_only_the_spans_that_show_are_solved() -> None:

@@ -3,7 +3,7 @@
 PNG and animations need Qt to paint; ``app.render.formats`` adds them.
 """
 
-from core.io.exporters.film import LONGEST_SIDE, Film, Size, Track
+from core.io.exporters.film import LONGEST_SIDE, Film, MovingMesh, Size
 from core.io.exporters.sequence import SequenceFormat
 from core.io.exporters.svg import SVG
 from core.io.exporters.vertices import VERTICES, VertexFormat
@@ -18,7 +18,7 @@ __all__ = [
     "VERTICES",
     "ExportFormat",
     "Film",
+    "MovingMesh",
     "SequenceFormat",
     "Size",
-    "Track",
 ]

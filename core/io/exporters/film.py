@@ -16,7 +16,7 @@ LONGEST_SIDE = 16_384
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class MovingMesh:
     """One moving mesh: a layer from one keyframe to the next."""
 
     layer: str
@@ -49,9 +49,9 @@ class Film(Protocol):
         """Frames a second."""
 
     @property
-    def tracks(self) -> Sequence[Track]:
+    def meshes(self) -> Sequence[MovingMesh]:
         """The meshes that make the frames."""
 
     @property
-    def track_count(self) -> int:
+    def mesh_count(self) -> int:
         """How many there are, which is known before any is solved."""

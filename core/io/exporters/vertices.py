@@ -54,38 +54,38 @@ class VertexFormat:
 
     def count(self, film: Film) -> int:
         """Return how many files a film makes."""
-        return film.track_count
+        return film.mesh_count
 
     def file_name(self, film: Film, stem: str, index: int) -> str:
         """Return what one of these files is called."""
-        number = f"-{index + 1}" if film.track_count > 1 else ""
+        number = f"-{index + 1}" if film.mesh_count > 1 else ""
         return f"{stem}{number}{self.suffix}"
 
     def export(
         self, film: Film, folder: Path, stem: str, size: Size | None, progress: Progress
     ) -> list[Path]:
-        """Write every track of a film; all files or none. Return the paths."""
-        tracks = film.tracks
-        if not tracks:
+        """Write every mesh of a film; all files or none. Return the paths."""
+        meshes = film.meshes
+        if not meshes:
             raise FileError("There is no mesh to export.")
         names = []
-        done, total = 0, sum(len(track.frames) for track in tracks)
+        done, total = 0, sum(len(mesh.frames) for mesh in meshes)
         with staging(folder) as draft:
-            for i, track in enumerate(tracks):
+            for i, mesh in enumerate(meshes):
                 positions = []
-                for k in range(len(track.frames)):
-                    progress((done + k) / total, f"Mesh {i + 1} of {len(tracks)}")
-                    positions.append(track.positions[k])
+                for k in range(len(mesh.frames)):
+                    progress((done + k) / total, f"Mesh {i + 1} of {len(meshes)}")
+                    positions.append(mesh.positions[k])
                 done += len(positions)
                 name = self.file_name(film, stem, i)
                 write_vertices(
                     file_in(draft, name),
                     positions,
-                    track.triangles,
-                    track.rings,
-                    track.times,
-                    frames=track.frames,
-                    layer=track.layer,
+                    mesh.triangles,
+                    mesh.rings,
+                    mesh.times,
+                    frames=mesh.frames,
+                    layer=mesh.layer,
                 )
                 names.append(name)
             progress(1.0, "Done")

@@ -10,7 +10,7 @@ from weakref import ref
 from core.model import Document, Layer
 from core.model.outline import Array
 from core.morph.hanging.rigid import STILL, RigidMotion
-from core.morph.hanging.run import Run, Stretch
+from core.morph.hanging.run import Phase, Run
 from core.morph.morph import Morph
 from core.morph.scene import R, RenditionOf, Span, span_of
 
@@ -22,9 +22,9 @@ class Carriers(Generic[R]):
     """
 
     def __init__(self, document: Document, rendition_of: RenditionOf[R]) -> None:
-        self._document, self._frames_of = document, rendition_of
+        self._document, self._rendition_of = document, rendition_of
         self._runs: dict[int, Run] = {}
-        self._frames: dict[Morph, R] = {}
+        self._renditions: dict[Morph, R] = {}
         self._last: dict[Morph, tuple[float, Array]] = {}
 
     def __call__(self, layer: Layer, frame: float) -> RigidMotion:
@@ -49,25 +49,25 @@ class Carriers(Generic[R]):
             layer.passes(index) and (carrier is None or carrier.smooth(key.frame))
             for index, key in enumerate(keys)
         ]
-        stretches = [Stretch(-inf, keys[0].frame, keys[0].outline, keys[0].frame)]
+        phases = [Phase(-inf, keys[0].frame, keys[0].outline, keys[0].frame)]
         for span, (key, later) in enumerate(pairwise(keys)):
             easing, ends = layer.easing_of(span), (passes[span], passes[span + 1])
             morph = None if easing.hold else self._morph_of(span_of(layer, span))
             solution = None if morph is None else ref(morph)
-            stretches.append(
-                Stretch(key.frame, later.frame, key.outline, key.frame, easing, solution, ends)
+            phases.append(
+                Phase(key.frame, later.frame, key.outline, key.frame, easing, solution, ends)
             )
-        stretches.append(Stretch(keys[-1].frame, inf, keys[-1].outline, keys[-1].frame))
-        return Run(tuple(stretches), carrier)
+        phases.append(Phase(keys[-1].frame, inf, keys[-1].outline, keys[-1].frame))
+        return Run(tuple(phases), carrier)
 
     def _morph_of(self, span: Span) -> Morph | None:
-        frames = self._frames_of(span)
-        if frames is None:
+        rendition = self._rendition_of(span)
+        if rendition is None:
             return None
-        self._frames[frames.morph] = frames
-        return frames.morph
+        self._renditions[rendition.morph] = rendition
+        return rendition.morph
 
     def _seen(self, morph: Morph, s: float) -> Array:
         if morph not in self._last or self._last[morph][0] != s:
-            self._last[morph] = s, self._frames[morph].at(s)
+            self._last[morph] = s, self._renditions[morph].at(s)
         return self._last[morph][1]

@@ -17,14 +17,14 @@ from core.geometry.flatten import flatten
 from core.geometry.rotation import wrap
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
+from core.morph.hanging.carried import CarriedPoints
 from core.morph.hanging.rigid import RigidMotion
 from core.morph.hanging.seen import Seen, as_solved
-from core.morph.hanging.track import Track
 from core.morph.morph import Morph
 from core.morph.motion.passing import bumps
 
 if TYPE_CHECKING:
-    from core.morph.hanging.run import Run, Stretch
+    from core.morph.hanging.run import Phase, Run
 
 MOST_POINTS = 200
 LEAST_POINTS = 8
@@ -40,7 +40,7 @@ NEAR = 2.0
 
 
 class Joint(Protocol):
-    """How a layer is carried in one stretch of time."""
+    """How a layer is carried in one phase."""
 
     def __call__(self, frame: float, seen: Seen = as_solved) -> RigidMotion:
         """Return how far it has been carried at a frame."""
@@ -54,18 +54,18 @@ class Joint(Protocol):
 class StillJoint:
     """Carries a key that stands still along, from its own frame to those before or after it."""
 
-    def __init__(self, stretch: Stretch, carrier: Run) -> None:
-        outline = np.concatenate([line.points for line in flatten(stretch.outline)])
-        self._points = outline[_joined(outline, carrier, stretch.drawn)]
-        self._track = Track(carrier, stretch.drawn, self._points)
+    def __init__(self, phase: Phase, carrier: Run) -> None:
+        outline = np.concatenate([line.points for line in flatten(phase.outline)])
+        self._points = outline[_joined(outline, carrier, phase.drawn)]
+        self._carried = CarriedPoints(carrier, phase.drawn, self._points)
 
     def __call__(self, frame: float, seen: Seen = as_solved) -> RigidMotion:
         """Return the motion of the place that it is joined to."""
-        return RigidMotion.between(self._points, self._track(frame, seen))
+        return RigidMotion.between(self._points, self._carried(frame, seen))
 
     def turned(self, frame: float) -> float:
         """Return the angle of that motion, whole turns included."""
-        return _on_branch(self(frame).turn, self._track.turned(frame))
+        return _on_branch(self(frame).turn, self._carried.turned(frame))
 
 
 class MovingJoint:
@@ -75,14 +75,14 @@ class MovingJoint:
     own centre leave that where it would be without them.
     """
 
-    def __init__(self, stretch: Stretch, carrier: Run) -> None:
-        first, last = stretch.first, stretch.last
-        self._stretch = stretch
+    def __init__(self, phase: Phase, carrier: Run) -> None:
+        first, last = phase.first, phase.last
+        self._phase = phase
         morph = self._morph
         joined = _joined(morph.rest, carrier, first), _joined(morph.target, carrier, last)
-        self._tracks = (
-            Track(carrier, first, morph.rest[joined[0]]),
-            Track(carrier, last, morph.target[joined[1]], ends=True),
+        self._carried = (
+            CarriedPoints(carrier, first, morph.rest[joined[0]]),
+            CarriedPoints(carrier, last, morph.target[joined[1]], ends=True),
         )
         self._vertices = np.concatenate(joined)
         self._start, end = self._places(first), self._places(last)
@@ -95,7 +95,7 @@ class MovingJoint:
 
     @property
     def _morph(self) -> Morph:
-        morph = self._stretch.morph
+        morph = self._phase.morph
         assert morph is not None
         return morph
 
@@ -111,7 +111,7 @@ class MovingJoint:
 
     def __call__(self, frame: float, seen: Seen = as_solved) -> RigidMotion:
         """Return what moves the span's own frame to its place."""
-        s, places = self._stretch.progress(frame), self._places(frame, seen)
+        s, places = self._phase.progress(frame), self._places(frame, seen)
         x, (before, after) = seen(self._morph, s), self._gaps
         goal = complex(*(self._weights @ (places + (1 - s) * before + s * after)))
         joint = complex(*(self._weights @ x[self._vertices]))
@@ -127,7 +127,7 @@ class MovingJoint:
     @cached_property
     def rates(self) -> tuple[complex, complex]:
         """The velocity that this adds to the layer's centre at both ends, per frame."""
-        first, last = self._stretch.first, self._stretch.last
+        first, last = self._phase.first, self._phase.last
         step = NO_TIME * (last - first)
         start, end = self._morph.rest.mean(axis=0), self._morph.target.mean(axis=0)
         return (
@@ -138,12 +138,12 @@ class MovingJoint:
     def _turned(self, frame: float, places: Array) -> float:
         if self._morph.inbetween.course is None:
             return 0.0
-        s = self._stretch.progress(frame)
+        s = self._phase.progress(frame)
         smoothed = sum(bump * rate for bump, rate in zip(bumps(s), self._spins, strict=True))
         return self._turned_unsmoothed(frame, places) - smoothed
 
     def _turned_unsmoothed(self, frame: float, places: Array) -> float:
-        own = self._stretch.progress(frame) * (self.angle - self._morph.angle)
+        own = self._phase.progress(frame) * (self.angle - self._morph.angle)
         return self._carrier_turned(frame, places) + own
 
     def _extra_spins(self) -> tuple[float, float]:
@@ -151,10 +151,10 @@ class MovingJoint:
 
         There it must not: the span's own motion has the velocity that it shares with the next.
         """
-        before, after = self._stretch.passes
+        before, after = self._phase.passes
         if self._morph.inbetween.course is None or not (before or after):
             return 0.0, 0.0
-        first, last = self._stretch.first, self._stretch.last
+        first, last = self._phase.first, self._phase.last
         step = NO_TIME * (last - first)
         start, almost, end = (
             self._turned_unsmoothed(frame, self._places(frame))
@@ -165,7 +165,7 @@ class MovingJoint:
     def _carrier_turned(self, frame: float, places: Array) -> float:
         """Return how far the carrier has turned where it has its part of the joint."""
         turn = RigidMotion.between(self._start, places).turn
-        return _on_branch(turn, self._tracks[0].turned(frame))
+        return _on_branch(turn, self._carried[0].turned(frame))
 
     def _seen_turn(self, carried: float) -> float:
         """Return the span's own turn, in [-π, π), as seen from a carrier that turns so far."""
@@ -174,7 +174,7 @@ class MovingJoint:
 
     def _places(self, frame: float, seen: Seen = as_solved) -> Array:
         """Return where the carrier has its part of the joint (k, 2) at a frame."""
-        return np.concatenate([track(frame, seen) for track in self._tracks])
+        return np.concatenate([points(frame, seen) for points in self._carried])
 
 
 def _joined(points: Array, carrier: Run, frame: float) -> Indices:

@@ -22,7 +22,7 @@ KEPT = 128
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Phase:
     """A key that stands still, or a span; solutions are compared by identity."""
 
     first: float
@@ -39,11 +39,11 @@ class Stretch:
 
     @property
     def morph(self) -> Morph | None:
-        """The solution; whoever uses the stretch keeps it alive."""
+        """The solution; whoever uses the phase keeps it alive."""
         return None if self.solution is None else self.solution()
 
     def progress(self, frame: float) -> float:
-        """Return s at a frame, taken to lie in the stretch."""
+        """Return s at a frame, taken to lie in the phase."""
         if self.solution is None:
             return 0.0
         return self.easing((frame - self.first) / (self.last - self.first))
@@ -57,30 +57,30 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Run:
-    """Stretches of a layer that follow each other without a gap; compared by value."""
+    """Phases of a layer that follow each other without a gap; compared by value."""
 
-    stretches: tuple[Stretch, ...]
+    phases: tuple[Phase, ...]
     carrier: Run | None = None
 
     def smooth(self, frame: float) -> bool:
         """Return whether the motion neither starts nor ends anew at a frame."""
         carried = self.carrier is None or self.carrier.smooth(frame)
-        return carried and all(s.passes[0] for s in self.stretches if s.first == frame)
+        return carried and all(p.passes[0] for p in self.phases if p.first == frame)
 
     def index(self, frame: float) -> int:
-        """Return the stretch that a frame is in; a key begins one."""
+        """Return the phase that a frame is in; a key begins one."""
         return bisect_right(self._firsts, frame) - 1
 
     def index_before(self, frame: float) -> int:
-        """Return the stretch that a frame is in; a key ends one."""
+        """Return the phase that a frame is in; a key ends one."""
         return bisect_left(self._firsts, frame) - 1
 
     def joint(self, index: int) -> Joint | None:
-        """Return how a stretch is joined to the carrier, if there is one."""
+        """Return how a phase is joined to the carrier, if there is one."""
         if index not in self._joints:
-            stretch = self.stretches[index]
-            unsolved = stretch.solution is None and not stretch.easing.hold
-            joint = None if self.carrier is None or unsolved else _joint(stretch, self.carrier)
+            phase = self.phases[index]
+            unsolved = phase.solution is None and not phase.easing.hold
+            joint = None if self.carrier is None or unsolved else _joint(phase, self.carrier)
             self._joints[index] = joint
         return self._joints[index]
 
@@ -90,8 +90,8 @@ class Run:
         return joint.angle if isinstance(joint, MovingJoint) else None
 
     def motion(self, index: int, frame: float, seen: Seen = as_solved) -> RigidMotion:
-        """Return how the carrier moves what is in a stretch at a frame."""
-        drawn = self.carrier is None or self.stretches[index].as_drawn(frame)
+        """Return how the carrier moves what is in a phase at a frame."""
+        drawn = self.carrier is None or self.phases[index].as_drawn(frame)
         joint = None if drawn else self.joint(index)
         if joint is None:
             return STILL
@@ -102,13 +102,13 @@ class Run:
         """Return what moves a span besides, so that joints on both sides of a key that the motion
         passes through have one velocity there: that between theirs.
         """
-        stretch, shift = self.stretches[index], 0j
-        for end, bump in enumerate(bumps(stretch.progress(frame))):
-            if stretch.passes[end]:
+        phase, shift = self.phases[index], 0j
+        for end, bump in enumerate(bumps(phase.progress(frame))):
+            if phase.passes[end]:
                 joint, other = self.joint(index), self.joint(index - 1 + 2 * end)
                 if isinstance(joint, MovingJoint) and isinstance(other, MovingJoint):
                     apart = other.rates[1 - end] - joint.rates[end]
-                    shift += bump * (stretch.last - stretch.first) * apart / 2
+                    shift += bump * (phase.last - phase.first) * apart / 2
         return shift
 
     def turned(self, index: int, frame: float) -> float:
@@ -119,12 +119,12 @@ class Run:
     def rings(self, frame: float) -> tuple[Array, ...]:
         """Return what is shown at a frame, as closed polylines (k, 2), exterior first."""
         index = self.index(frame)
-        stretch = self.stretches[index]
-        if stretch.morph is None:
-            rings = tuple(line.points for line in flatten(stretch.outline))
+        phase = self.phases[index]
+        if phase.morph is None:
+            rings = tuple(line.points for line in flatten(phase.outline))
         else:
-            points = stretch.morph.at(stretch.progress(frame))
-            rings = tuple(points[ring] for ring in stretch.morph.rings)
+            points = phase.morph.at(phase.progress(frame))
+            rings = tuple(points[ring] for ring in phase.morph.rings)
         return tuple(map(self.motion(index, frame), rings))
 
     @cached_property
@@ -134,11 +134,11 @@ class Run:
 
     @cached_property
     def _firsts(self) -> list[float]:
-        return [stretch.first for stretch in self.stretches]
+        return [phase.first for phase in self.phases]
 
 
 @lru_cache(KEPT)
-def _joint(stretch: Stretch, carrier: Run) -> Joint:
-    if stretch.solution is None:
-        return StillJoint(stretch, carrier)
-    return MovingJoint(stretch, carrier)
+def _joint(phase: Phase, carrier: Run) -> Joint:
+    if phase.solution is None:
+        return StillJoint(phase, carrier)
+    return MovingJoint(phase, carrier)

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from core.errors import Cancelled, FileError
 from core.io import exporters
-from core.io.exporters import SVG, VERTICES, Size, Track
+from core.io.exporters import SVG, VERTICES, MovingMesh, Size
 from core.io.exporters.sequence import export_sequence
 from core.io.exporters.svg import drawing, write_picture
 from core.io.exporters.vertices import write_vertices
@@ -42,12 +42,12 @@ def names(folder: Path) -> list[str]:
 
 class Film:
     pictures: Sequence[Picture] = [picture(frame) for frame in (3, 4, 5)]
-    tracks: Sequence[Track] = ()
+    meshes: Sequence[MovingMesh] = ()
     frames = (3, 5)
 
     @property
-    def track_count(self) -> int:
-        return len(self.tracks)
+    def mesh_count(self) -> int:
+        return len(self.meshes)
 
 
 # -- sequences ---------------------------------------------------------------------------------
@@ -215,7 +215,7 @@ def test_no_name_leads_out_of_the_folder(
     tmp_path: Path, form: exporters.ExportFormat, stem: str
 ) -> None:
     film = Film()
-    film.tracks = [track()]
+    film.meshes = [mesh()]
     with pytest.raises(FileError, match="not the name of a file"):
         form.export(film, tmp_path / "in", stem, None, silent)
     assert names(tmp_path) == []
@@ -240,13 +240,15 @@ def test_an_error_names_the_file_that_was_to_be(tmp_path: Path) -> None:
 # -- vertices ----------------------------------------------------------------------------------
 
 
-def track(layer: str = "leg") -> Track:
+def mesh(layer: str = "leg") -> MovingMesh:
     positions = np.arange(30.0).reshape(3, 5, 2)
-    return Track(layer, positions, [[0, 1, 4]], ([0, 1, 2], [3, 4, 0]), [3, 4, 5], [0.1, 0.2, 0.3])
+    return MovingMesh(
+        layer, positions, [[0, 1, 4]], ([0, 1, 2], [3, 4, 0]), [3, 4, 5], [0.1, 0.2, 0.3]
+    )
 
 
 def test_vertex_frames_come_back(tmp_path: Path) -> None:
-    one = track()
+    one = mesh()
     write_vertices(tmp_path / "a.npz", one.positions, one.triangles, one.rings, one.times)
     with np.load(tmp_path / "a.npz") as found:
         np.testing.assert_array_equal(found["positions"], one.positions)
@@ -257,17 +259,17 @@ def test_vertex_frames_come_back(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("tracks", "files"), [([track()], ["x.npz"]), ([track(), track("Ω")], ["x-1.npz", "x-2.npz"])]
+    ("meshes", "files"), [([mesh()], ["x.npz"]), ([mesh(), mesh("Ω")], ["x-1.npz", "x-2.npz"])]
 )
 def test_each_mesh_has_its_own_archive(
-    tmp_path: Path, tracks: list[Track], files: list[str]
+    tmp_path: Path, meshes: list[MovingMesh], files: list[str]
 ) -> None:
     film = Film()
-    film.tracks = tracks
+    film.meshes = meshes
     paths = VERTICES.export(film, tmp_path, "x", None, silent)
     assert [path.name for path in paths] == files == names(tmp_path)
     with np.load(paths[-1]) as found:
-        assert found["layer"] == tracks[-1].layer
+        assert found["layer"] == meshes[-1].layer
         assert found["frames"].tolist() == [3, 4, 5]
 
 
@@ -280,7 +282,7 @@ def test_vertex_frames_can_be_cancelled_before_each_and_leave_nothing(tmp_path: 
             return super().__getitem__(index)
 
     film, fractions = Film(), []
-    film.tracks = [replace(track(), positions=Made(track().positions)) for _ in range(2)]
+    film.meshes = [replace(mesh(), positions=Made(mesh().positions)) for _ in range(2)]
 
     def progress(fraction: float, stage: str) -> None:
         fractions.append(fraction)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from core.morph.hanging.run import Run
 
 
-class Track:
+class CarriedPoints:
     """Where points go that are fixed to a layer at some frame.
 
     Every span has a mesh of its own: at a key, they are located anew.
@@ -29,15 +29,15 @@ class Track:
         return self._at(self._reach(frame), frame, seen)
 
     def _reach(self, frame: float) -> int:
-        """Locate the points on every mesh on the way to a frame; return its stretch."""
+        """Locate the points on every mesh on the way to a frame; return its phase."""
         index = self._run.index(frame)
         if index > self._start:
             index = self._run.index_before(frame)
         step = 1 if index > self._start else -1
         for here in range(self._start, index, step):
             if here + step not in self._pins:
-                stretch = self._run.stretches[here]
-                key = stretch.last if step > 0 else stretch.first
+                phase = self._run.phases[here]
+                key = phase.last if step > 0 else phase.first
                 self._pins[here + step] = self._pin(
                     here + step, key, self._at(here, key, as_solved)
                 )
@@ -48,37 +48,37 @@ class Track:
         index, total = self._reach(frame), 0.0
         low, high = sorted((self._start, index))
         for here in range(low, high + 1):
-            stretch = self._run.stretches[here]
-            ends = (max(min(f, stretch.last), stretch.first) for f in (self._frame, frame))
+            phase = self._run.phases[here]
+            ends = (max(min(f, phase.last), phase.first) for f in (self._frame, frame))
             before, after = (self._angle(here, end) for end in ends)
             total += after - before
         return total
 
     def _angle(self, index: int, frame: float) -> float:
-        """Return how far the points have turned since a stretch began."""
-        stretch, pin = self._run.stretches[index], self._pins[index]
+        """Return how far the points have turned since a phase began."""
+        phase, pin = self._run.phases[index], self._pins[index]
         angle = self._run.turned(index, frame)
         if isinstance(pin, Located):
-            assert stretch.morph is not None
-            angles = stretch.morph.inbetween.angles
+            assert phase.morph is not None
+            angles = phase.morph.inbetween.angles
             local = angles[pin.triangle] if len(angles) > 1 else angles
-            angle += stretch.progress(frame) * float(local.mean())
+            angle += phase.progress(frame) * float(local.mean())
         return angle
 
     def _pin(self, index: int, frame: float, points: Array) -> Located | Array:
-        """Locate points on a stretch's mesh; where it has none, say where they were before it."""
-        stretch = self._run.stretches[index]
+        """Locate points on a phase's mesh; where it has none, say where they were before it."""
+        phase = self._run.phases[index]
         before = self._run.motion(index, frame).back(points)
-        if stretch.morph is None:
+        if phase.morph is None:
             return before
-        vertices = stretch.morph.at(stretch.progress(frame))
-        return Located.on(vertices, stretch.morph.triangles, before)
+        vertices = phase.morph.at(phase.progress(frame))
+        return Located.on(vertices, phase.morph.triangles, before)
 
     def _at(self, index: int, frame: float, seen: Seen) -> Array:
-        stretch, pin = self._run.stretches[index], self._pins[index]
+        phase, pin = self._run.phases[index], self._pins[index]
         if isinstance(pin, Located):
-            assert stretch.morph is not None
-            points = pin.interpolate(seen(stretch.morph, stretch.progress(frame)))
+            assert phase.morph is not None
+            points = pin.interpolate(seen(phase.morph, phase.progress(frame)))
         else:
             points = pin
         return self._run.motion(index, frame, seen)(points)
