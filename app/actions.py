@@ -17,6 +17,7 @@ from app.entries import (
     has_span,
     has_suggestions,
     has_undo,
+    key_title,
     layer_state,
     layout_choice,
     loop_choice,
@@ -59,6 +60,14 @@ def _redo_title(d: Desk) -> str:
     return translated("&Redo {step}").format(step=d.session.undo_stack.redoText())
 
 
+def _delete_title(d: Desk) -> str:
+    if d.selection.nodes:
+        return translated("&Delete nodes")
+    if d.selection.mark is not None:
+        return translated("&Delete mark")
+    return key_title("&Delete keyframe {frame}")(d)
+
+
 def _play_title(d: Desk) -> str:
     return translated("&Pause" if d.playhead.playing else "&Play")
 
@@ -79,10 +88,13 @@ ENTRIES: tuple[Entry, ...] = (
           title=_undo_title),
     Entry("redo", "&Redo", lambda d: d.session.redo(), ("Ctrl+Shift+Z", "Ctrl+Y"), "redo",
           lambda d: d.session.undo_stack.canRedo(), title=_redo_title),
-    Entry("cut", "Cut &keyframe", lambda d: d.clipboard.cut(), ("Ctrl+X",), when=has_span),
-    Entry("copy", "&Copy keyframe", lambda d: d.clipboard.copy(), ("Ctrl+C",), when=has_layer),
+    Entry("cut", "Cut &keyframe", lambda d: d.clipboard.cut(), ("Ctrl+X",), when=has_span,
+          title=key_title("Cut &keyframe {frame}")),
+    Entry("copy", "&Copy keyframe", lambda d: d.clipboard.copy(), ("Ctrl+C",), when=has_layer,
+          title=key_title("&Copy keyframe {frame}")),
     Entry("paste", "&Paste here", lambda d: d.clipboard.paste(), ("Ctrl+V",)),
-    Entry("delete", "&Delete", lambda d: d.commands.delete(), ("Del",), "delete", has_layer),
+    Entry("delete", "&Delete", lambda d: d.commands.delete(), ("Del",), "delete", has_layer,
+          title=_delete_title),
     Entry("select-all", "Select &all nodes", lambda d: d.commands.select_all_nodes(),
           ("Ctrl+A",), when=has_layer),
 
@@ -132,7 +144,7 @@ ENTRIES: tuple[Entry, ...] = (
           ("F6", "K"), "keyframe", on_free_frame),
     Entry("draw-key", "D&raw keyframe here", _draw_key, ("F7",), "blank-keyframe", has_layer),
     Entry("remove-key", "&Delete keyframe", lambda d: d.commands.remove_keyframe(),
-          ("Shift+Del",), "delete", has_span),
+          ("Shift+Del",), "delete", has_span, title=key_title("&Delete keyframe {frame}")),
     *(easing_choice(preset) for preset in PRESETS),
 
     Entry("suggest-marks", "&Suggest marks", _suggest, ("Ctrl+Shift+M",), when=has_span,
@@ -155,9 +167,9 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("next-frame", "&Next frame", lambda d: d.playhead.step(1), ("Right", "."), "next-frame"),
     Entry("previous-frame", "Pre&vious frame", lambda d: d.playhead.step(-1), ("Left", ","),
           "previous-frame"),
-    Entry("next-key", "Next &keyframe", lambda d: d.playhead.step_key(1), ("Ctrl+Right", "Alt+."),
+    Entry("next-key", "Next &keyframe", lambda d: d.commands.step_key(1), ("Ctrl+Right", "Alt+."),
           "next-key"),
-    Entry("previous-key", "Previous ke&yframe", lambda d: d.playhead.step_key(-1),
+    Entry("previous-key", "Previous ke&yframe", lambda d: d.commands.step_key(-1),
           ("Ctrl+Left", "Alt+,"), "previous-key"),
     Entry("first", "&First frame", lambda d: d.playhead.to_start(), ("Home",), "first"),
     Entry("last", "L&ast frame", lambda d: d.playhead.to_end(), ("End",), "last"),

@@ -87,9 +87,7 @@ class Clipboard(QObject):
             return
         layer = self._commands.unlocked()
         session.apply(text, paste_key, layer.id, frame, copied.keyframe, copied.layer.labels)
-        key = session.document.layer(layer.id).key_at(frame)
-        if key is not None:
-            selection.select_key(layer.id, key)
+        selection.select_key_at(frame)
 
 
 def _as_layer(document: Document, layer: Layer, keyframe: Keyframe, frame: int) -> Document:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 
+from app.document.keyframes import delete_key, step_key
 from app.document.layers import toggle
 from app.workspace import Workspace
 from core.errors import EditError
@@ -13,7 +14,6 @@ from core.model import Layer
 from core.model.easing import PRESETS
 from core.model.edits import (
     insert_keyframe,
-    remove_keyframe,
     remove_marks,
     set_easing,
 )
@@ -39,7 +39,7 @@ class Commands(QObject):
     # -- edit ----------------------------------------------------------------------------------
 
     def delete(self) -> None:
-        """Delete the selected nodes, or else the selected mark, or else the keyframe here."""
+        """Delete the selected nodes, or else the selected mark, or else the chosen keyframe."""
         if self._selection.nodes:
             self.delete_nodes()
         elif self._selection.mark is not None:
@@ -89,14 +89,16 @@ class Commands(QObject):
         key, turning = keyframe_at(self._session.document, layer, frame, self._solution)
         text = self.tr("Insert keyframe")
         if self._session.apply(text, insert_keyframe, layer.id, key, turning):
-            self._select_key_at(layer.id, frame)
+            self._selection.select_key_at(frame)
 
     def remove_keyframe(self) -> None:
-        """Delete the keyframe under the playhead, or else the selected one."""
-        layer = self.unlocked()
-        here = layer.key_at(self._playhead.frame)
-        key = self._selection.key if here is None else here
-        self._session.apply(self.tr("Delete keyframe"), remove_keyframe, layer.id, key)
+        """Delete the chosen keyframe."""
+        self.unlocked()
+        delete_key(self._session, self._selection)
+
+    def step_key(self, direction: int) -> None:
+        """Go to the next keyframe, or the last one before, and choose it."""
+        step_key(self._playhead, self._selection, direction)
 
     def set_easing(self, preset: str) -> None:
         """Set the timing of the span under the playhead."""
@@ -173,8 +175,3 @@ class Commands(QObject):
 
     def _index(self, layer: Layer) -> int:
         return [other.id for other in self._session.document.layers].index(layer.id)
-
-    def _select_key_at(self, layer_id: int, frame: int) -> None:
-        key = self._session.document.layer(layer_id).key_at(frame)
-        if key is not None:
-            self._selection.select_key(layer_id, key)

@@ -108,6 +108,16 @@ def has_undo(d: Desk) -> bool:
     return d.session.undo_stack.canUndo() or d.session.dragging
 
 
+def key_title(text: str) -> Callable[[Desk], str]:
+    """Return a title that names the frame of the chosen keyframe."""
+
+    def title(d: Desk) -> str:
+        keyframe = d.selection.keyframe
+        return translated(text).format(frame=keyframe.frame if keyframe else "")
+
+    return title
+
+
 # -- rows of a kind --------------------------------------------------------------------------------
 
 

@@ -244,10 +244,10 @@ class Reporter(QObject):
         keyframes = self._workspace.session.document.layer(layer_id).keyframes
         at = index + (error.where.side == "target")
         self._workspace.playhead.stop()
-        self._workspace.selection.select_key(layer_id, at)
         first, last = keyframes[index].frame, keyframes[index + 1].frame
         if not first <= self._workspace.playhead.frame < last:
             self._workspace.playhead.move_to(first)
+        self._workspace.selection.select_key(layer_id, at)
         if isinstance(error, MarkError):
             self._canvas.set_tool("marks")
         elif isinstance(error, OutlineError | Repair):

@@ -14,9 +14,10 @@ from PySide6.QtGui import QContextMenuEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from app.canvas.camera import Camera
+from app.canvas.chosen_key import ChosenKey
 from app.canvas.framing import Framing
 from app.canvas.keyboard import Keyboard
-from app.canvas.moment import Moment, Role, keys_in_view, moment_of, nearest_in_view
+from app.canvas.moment import Moment, Role, moment_of
 from app.canvas.pane import Pane
 from app.canvas.panes import Panes
 from app.canvas.pointer import Pointer
@@ -57,6 +58,7 @@ class Canvas(QWidget):
         self._tool = self._tools[SelectTool.name]
         self.panes = {role: Pane(role, workspace, self.camera, self) for role in Role}
         self._arranged = Panes(self.panes, self)
+        self.chosen = ChosenKey(workspace, self._arranged, self)
         self.framing = Framing(self.camera, workspace.session, self._arranged)
         self._keyboard = Keyboard(self, workspace.playhead)
         column = QVBoxLayout(self)
@@ -137,27 +139,16 @@ class Canvas(QWidget):
     def _refresh(self) -> None:
         """Show what changed: while the playhead moves within a span, the panes of keys stay."""
         self._refresh_due = False
-        self._select_in_view()
+        self.chosen.keep_in_view()
         before, self._moment = self._moment, moment_of(self._workspace, patient=not self._late)
         self._arranged.show_board(self._moment.document.size)
         keys_stay = before is not None and before.span == self._moment.span
-        for pane in self._shown_panes():
+        for pane in self._arranged.shown:
             if pane.live or not keys_stay:
                 pane.look(self._moment, self._error)
         self._tool.look_again()
         self._after_tool()
         self._keep_patience()  # last, for it is by looking that frames are found to be missing
-
-    def _select_in_view(self) -> None:
-        """Select the key that is worked in, or at least one that is seen."""
-        layer, playhead = self._workspace.selection.layer, self._workspace.playhead
-        if layer is None or playhead.playing:
-            return
-        if self.focused_key is not None:
-            self._workspace.selection.select_key(layer.id, self.focused_key)
-        elif self._workspace.selection.key not in keys_in_view(layer, playhead.frame):
-            key = nearest_in_view(layer, playhead.frame)
-            self._workspace.selection.select_key(layer.id, key)
 
     def _keep_patience(self) -> None:
         """Do not dim what is there in a moment: it would only flicker."""
@@ -187,28 +178,17 @@ class Canvas(QWidget):
         self.framing.fit()
 
     def _on_pulse(self, pulse: float) -> None:
-        for pane in self._shown_panes():
+        for pane in self._arranged.shown:
             pane.error_ring.set_pulse(pulse)
 
-    def _shown_panes(self) -> list[Pane]:
-        return [self.panes[role] for role in self._shown_roles()]
-
-    def _shown_roles(self) -> tuple[Role, ...]:
-        return (Role.OVERLAY,) if self._workspace.view.layout == "overlay" else SIDE_BY_SIDE
-
-    @property
-    def focused_key(self) -> int | None:
-        """Index of the keyframe in the pane that has the focus, if there is one."""
-        focused = (pane.key for pane in self._shown_panes() if pane.view.hasFocus())
-        return next(focused, None)
-
     def _show_layout(self) -> None:
-        roles = self._shown_roles()
+        self._layout = self._workspace.view.layout
+        roles = (Role.OVERLAY,) if self._layout == "overlay" else SIDE_BY_SIDE
         self._arranged.show_panes(roles)
         self.setFocusProxy(self.panes[roles[len(roles) // 2]].view)
 
     def _on_view_changed(self) -> None:
-        if any(pane.isHidden() for pane in self._shown_panes()):
+        if self._workspace.view.layout != self._layout:
             self._change_layout()
         self.refresh()
 
@@ -243,17 +223,14 @@ class Canvas(QWidget):
         self._after_tool()
 
     def _on_focus_changed(self) -> None:
-        """Make the key of the pane that is worked in the selected one, for the keys to act on."""
-        layer = self._workspace.selection.layer
-        for pane in self._shown_panes():
+        for pane in self._arranged.shown:
             pane.set_focused(pane.view.hasFocus())
-            if pane.view.hasFocus() and layer is not None and pane.key is not None:
-                self._workspace.selection.select_key(layer.id, pane.key)
+        self.chosen.follow_focus()
 
     def _after_tool(self) -> None:
         """Show what the tool changed about itself; mere hovering mostly changes nothing."""
         seen = self._tool, self._tool.seen
-        for pane in self._shown_panes():
+        for pane in self._arranged.shown:
             pane.follow(self._tool, repaint=seen != self._seen)
         self._seen = seen
         if self._tool.hint != self._hint:

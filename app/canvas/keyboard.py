@@ -83,6 +83,6 @@ class Keyboard(QObject):
                 return tool.abandon
             if not (self._canvas.at_rest or self._playhead.playing):
                 return self._canvas.put_tool_away
-        if key in ARROWS and self._canvas.focused_key is None:
+        if key in ARROWS and self._canvas.chosen.focused is None:
             return None  # in the in-between there is nothing to nudge, and time to step through
         return tool.key(key, modifiers)

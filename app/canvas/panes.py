@@ -64,6 +64,7 @@ class Panes(PaneSplitter):
     def __init__(self, panes: Mapping[Role, Pane], parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)
         self._panes, self._board = panes, (1.0, 1.0)
+        self._roles = tuple(panes)
         self._keys = PaneSplitter(Qt.Orientation.Vertical, self)
         self._keys.insert(0, panes[Role.SOURCE], 1.0)
         self.insert(0, self._keys, KEYS)
@@ -77,13 +78,19 @@ class Panes(PaneSplitter):
         return self._keys.count() > 1
 
     @property
+    def shown(self) -> list[Pane]:
+        """The panes on screen, or about to be."""
+        return [self._panes[role] for role in self._roles]
+
+    @property
     def room(self) -> QSizeF:
         """The pixels that every pane on screen has."""
-        sizes = [pane.view.size() for pane in self._panes.values() if not pane.isHidden()]
+        sizes = [pane.view.size() for pane in self.shown]
         return QSizeF(min(s.width() for s in sizes), min(s.height() for s in sizes))
 
     def show_panes(self, roles: Collection[Role]) -> None:
         """Show just these panes."""
+        self._roles = tuple(roles)
         for role, pane in self._panes.items():
             pane.setVisible(role in roles)
         self._keys.setVisible(Role.SOURCE in roles)

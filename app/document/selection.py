@@ -74,6 +74,13 @@ class Selection(QObject):
         if (layer_id, key) != (self._layer_id, self._key):
             self._set(layer_id, key)
 
+    def select_key_at(self, frame: float) -> None:
+        """Make the current layer's keyframe at a frame current, if there is one."""
+        layer = self.layer
+        key = layer.key_at(frame) if layer else None
+        if layer is not None and key is not None:
+            self.select_key(layer.id, key)
+
     def select_nodes(self, nodes: frozenset[tuple[int, int]]) -> None:
         """Select nodes on the current keyframe."""
         if nodes != self._nodes or self._mark is not None:

@@ -137,9 +137,7 @@ class KeyCopy:
     def _go_to(self, frame: int) -> None:
         """Choose the key at a frame, and go there."""
         self._workspace.playhead.move_to(frame)
-        key = self._workspace.session.document.layer(self._layer_id).key_at(frame)
-        if key is not None:
-            self._workspace.selection.select_key(self._layer_id, key)
+        self._workspace.selection.select_key_at(frame)
 
 
 class RangeDrag:

@@ -7,28 +7,11 @@ from PySide6.QtCore import QCoreApplication
 from app.timeline.rows import Place
 from app.workspace import Workspace
 from core.model import Easing
-from core.model.edits import move_keyframe, remove_keyframe, set_easing, set_passing
+from core.model.edits import move_keyframe, set_easing, set_passing
 
 
 def _tr(text: str) -> str:
     return QCoreApplication.translate("Timeline", text)
-
-
-def step_key(workspace: Workspace, direction: int) -> None:
-    """Go to the next key of any visible layer, or the last one before; choose it if it can be."""
-    workspace.playhead.step_key(direction)
-    layer = workspace.selection.layer
-    key = layer.key_at(workspace.playhead.frame) if layer else None
-    if layer is not None and key is not None:
-        workspace.selection.select_key(layer.id, key)
-
-
-def delete_key(workspace: Workspace) -> None:
-    """Delete the chosen key."""
-    layer = workspace.selection.layer
-    if layer is not None:
-        key = workspace.selection.key
-        workspace.session.apply(_tr("Delete keyframe"), remove_keyframe, layer.id, key)
 
 
 def nudge_key(workspace: Workspace, frames: int) -> None:

@@ -7,6 +7,7 @@ from functools import partial
 from PySide6.QtCore import QCoreApplication, Qt
 from PySide6.QtWidgets import QMenu, QWidget
 
+from app.document.keyframes import delete_key
 from app.icons import set_icon
 from app.timeline import keys
 from app.timeline.rows import Place
@@ -44,6 +45,8 @@ class TrackMenu(QMenu):
         )
         everything.setEnabled(workspace.playhead.limited)
         self.addSeparator()
-        delete = self.addAction(self.tr("Delete keyframe"), partial(keys.delete_key, workspace))
+        delete = self.addAction(
+            self.tr("Delete keyframe"), partial(delete_key, workspace.session, workspace.selection)
+        )
         set_icon(delete, "delete")
         delete.setEnabled(len(layer.keyframes) > 1 and not layer.locked)

@@ -18,6 +18,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from app.document.keyframes import delete_key, step_key
 from app.timeline import keys
 from app.timeline.gestures import Gesture, KeyCopy, KeyDrag, Scrub
 from app.timeline.menu import TrackMenu
@@ -41,13 +42,13 @@ class Tracks(TimeWidget):
         self._keyboard: dict[str, Callable[[], object]] = {
             "Left": partial(workspace.playhead.step, -1),
             "Right": partial(workspace.playhead.step, 1),
-            "Ctrl+Left": partial(keys.step_key, workspace, -1),
-            "Ctrl+Right": partial(keys.step_key, workspace, 1),
+            "Ctrl+Left": partial(step_key, workspace.playhead, workspace.selection, -1),
+            "Ctrl+Right": partial(step_key, workspace.playhead, workspace.selection, 1),
             "Home": workspace.playhead.to_start,
             "End": workspace.playhead.to_end,
             "Space": workspace.playhead.toggle,
-            "Del": partial(keys.delete_key, workspace),
-            "Backspace": partial(keys.delete_key, workspace),
+            "Del": partial(delete_key, workspace.session, workspace.selection),
+            "Backspace": partial(delete_key, workspace.session, workspace.selection),
             "Alt+Left": partial(keys.nudge_key, workspace, -1),
             "Alt+Right": partial(keys.nudge_key, workspace, 1),
             "Up": partial(keys.choose_layer, workspace, 1),

@@ -8,11 +8,11 @@ from functools import partial
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
+from app.document.keyframes import step_key
 from app.document.playhead import Loop
 from app.fields.frame_rate import FrameRateField
 from app.fields.number import NumberField
 from app.icons import set_icon
-from app.timeline import keys
 from app.workspace import Workspace
 from core.model.structure import MAX_FRAME
 
@@ -73,7 +73,7 @@ class Transport(QWidget):
         for loop, text in self._loop_names().items():
             set_icon(menu.addAction(text, partial(playhead.set_loop, loop)), LOOP_ICONS[loop])
         self.loop.setMenu(menu)
-        step, jump = playhead.step, partial(keys.step_key, self._workspace)
+        step, jump = playhead.step, partial(step_key, playhead, self._workspace.selection)
         return [
             _button("first", self.tr("To the start (Home)"), playhead.to_start),
             _button("previous-key", self.tr("Previous key (Ctrl+Left)"), partial(jump, -1)),

@@ -30,12 +30,16 @@ class DrawingTool(Tool):
 
     def begin(self, pointer: Pointer) -> bool:
         """Begin to draw, or say why that is not possible; with Alt it will be a hole."""
-        makes_layer = self.selection.layer is None or pointer.pane.role is Role.IN_BETWEEN
-        if not makes_layer and not self.unlocked():
+        if not self._makes_layer(pointer.pane) and not self.unlocked():
             return False
         self._pane = pointer.pane
         self._hole = pointer.alt and pointer.pane.key is not None
         return True
+
+    @property
+    def refuses(self) -> bool:
+        """Whether the next click changes nothing; a new layer can be drawn in any case."""
+        return super().refuses and not (self._pane and self._makes_layer(self._pane))
 
     def finish(self, ring: Ring, pane: Pane) -> None:
         """Put a drawn ring where the pane says, as one undo step."""
@@ -44,19 +48,16 @@ class DrawingTool(Tool):
         if layer is not None and self._hole:
             self.session.apply(self.tr("Cut hole"), composed.cut_hole, layer.id, pane.key, ring)
             return
-        if layer is None or pane.role is Role.IN_BETWEEN:
+        if layer is None or self._makes_layer(pane):
             self._add_layer(outline, frame)
             return
-        key = layer.key_at(frame)
-        if key is not None:
+        if (key := layer.key_at(frame)) is not None:
             text = self.tr("Draw outline")
             self.session.apply(text, composed.redraw_key, layer.id, key, outline)
         else:
             text = self.tr("Draw keyframe")
             self.session.apply(text, composed.draw_key, layer.id, frame, outline)
-            key = self.session.document.layer(layer.id).key_at(frame)
-        if key is not None:
-            self.selection.select_key(layer.id, key)
+        self.selection.select_key_at(frame)
 
     def new_frame(self, pane: Pane) -> int:
         """Return the frame of the key that a drawing in a pane makes or changes."""
@@ -69,13 +70,16 @@ class DrawingTool(Tool):
     def outcome(self, pane: Pane) -> str:
         """Say what a drawing in a pane will become."""
         layer, frame = self.selection.layer, self.new_frame(pane)
-        if layer is None or pane.role is Role.IN_BETWEEN:
+        if layer is None or self._makes_layer(pane):
             return self.tr("a new layer")
         if layer.key_at(frame) is not None:
             text = self.tr("a new outline for frame {frame} of “{name}”, or with Alt a hole in it")
         else:
             text = self.tr("a new key at frame {frame} of “{name}”")
         return text.format(frame=frame, name=layer.name)
+
+    def _makes_layer(self, pane: Pane) -> bool:
+        return self.selection.layer is None or pane.role is Role.IN_BETWEEN
 
     def _add_layer(self, outline: Outline, frame: int) -> None:
         text, name = self.tr("Draw layer"), free_name(self.session.document)

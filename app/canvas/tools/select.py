@@ -86,7 +86,7 @@ class SelectTool(Tool):
             self.cursor = Qt.CursorShape.CrossCursor
         elif self._handle is not None:
             self.cursor = CURSORS[self._handle % 4]
-        elif self._over is not None and pointer.pane.key is not None:
+        elif self._over is not None and pointer.pane.key is not None and not self.refuses:
             self.cursor = Qt.CursorShape.SizeAllCursor
 
     def leave(self) -> None:
@@ -128,6 +128,12 @@ class SelectTool(Tool):
         if step is None:
             return None
         return lambda: self._nudge(layer.id, self.selection.key, step)
+
+    @property
+    def refuses(self) -> bool:
+        """Whether the next click changes nothing; another layer can be selected in any case."""
+        layer = self.selection.layer
+        return super().refuses and layer is not None and self._over in (None, layer.id)
 
     def advice(self) -> str:
         """Say what a drag does from here."""
@@ -181,7 +187,7 @@ class SelectTool(Tool):
 
     def _handle_at(self, pointer: Pointer) -> int | None:
         keyframe = pointer.pane.keyframe
-        if keyframe is None:
+        if keyframe is None or self.fixed:
             return None
         view = pointer.pane.view
         box = TransformBox.around(keyframe.outline)

@@ -123,7 +123,7 @@ class Tool(QObject):
     @property
     def hint(self) -> str:
         """What the status bar says."""
-        return self.notice or self.advice()
+        return self.notice or (self.refusal() if self.refuses else self.advice())
 
     def press(self, pointer: Pointer) -> None:
         """Take a press of the left button."""
@@ -209,13 +209,23 @@ class Tool(QObject):
 
     def unlocked(self) -> bool:
         """Return whether the current layer may be edited, or say why not."""
-        layer = self.selection.layer
-        if layer is None or not self.fixed:
+        if not self.fixed:
             return True
-        state = self.tr("locked") if layer.locked else self.tr("hidden")
-        refusal = self.tr("The layer “{name}” is {state}: change that in the layers panel first")
-        self.notice = refusal.format(name=layer.name, state=state)
+        self.notice = self.refusal()
         return False
+
+    @property
+    def refuses(self) -> bool:
+        """Whether the next click changes nothing, because the current layer may not be edited."""
+        return self.fixed
+
+    def refusal(self) -> str:
+        """Say why the current layer may not be edited."""
+        layer = self.selection.layer
+        assert layer is not None
+        state = self.tr("locked") if layer.locked else self.tr("hidden")
+        text = self.tr("The layer “{name}” is {state}: change that in the layers panel first")
+        return text.format(name=layer.name, state=state)
 
     def _far(self, pointer: Pointer) -> bool:
         assert self._pressed is not None

@@ -213,11 +213,11 @@ def test_a_locked_layer_refuses_with_a_reason(open_canvas):
     document = a_document()
     layer = replace(document.layers[0], locked=True)
     hand = open_canvas(replace(document, layers=(layer,)))
-    hints: list[str] = []
-    hand.canvas.hint_changed.connect(hints.append)
     hand.canvas.set_tool("pen")
+    hand.move(BETWEEN, CORNERS[0])
+    assert "a new layer" in hand.canvas.hint
     hand.click(SOURCE, CORNERS[0])
-    assert "“Card” is locked" in hints[-1]
+    assert "“Card” is locked" in hand.canvas.hint
     assert hand.document.layers[0] is layer
 
 

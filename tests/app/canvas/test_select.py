@@ -166,6 +166,7 @@ def test_a_locked_layer_shows_no_handles_and_refuses(open_canvas):
     hand = open_canvas(replace(document, layers=(layer,)))
     start = handle(hand, BOTTOM_RIGHT)
     hand.drag(SOURCE, start, np.add(start, (50, 50)))
+    assert "“Card” is locked" in hand.canvas.hint
     hand.drag(SOURCE, INSIDE, (500, 330))
     hand.key(SOURCE, Qt.Key.Key_Left)
     assert hand.document.layers[0] is layer
