@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from core.model.cubic import points_on
 from core.model.outline import Array, Outline, Ring
 
 TOLERANCE = 1e-4
@@ -47,7 +48,7 @@ def flatten_ring(ring: Ring, distance: float) -> Polyline:
         u = np.arange(_pieces(ring.controls(i), distance) if curved else 1, dtype=float)
         u /= len(u)
         at.append(i + u)
-        points.append(_cubic(ring.controls(i), u) if curved else ring.points[i : i + 1])
+        points.append(points_on(ring.controls(i), u) if curved else ring.points[i : i + 1])
     polyline = Polyline(np.concatenate(points), np.concatenate(at))
     polyline.points.setflags(write=False)
     return polyline
@@ -58,8 +59,3 @@ def _pieces(controls: Array, distance: float) -> int:
     bend = np.abs(np.diff(controls, n=2, axis=0)).max(axis=0)
     pieces = np.ceil(np.sqrt(0.75 * np.hypot(*bend) / distance))
     return int(np.clip(pieces, 2, MAX_PIECES)) if np.isfinite(pieces) else 2
-
-
-def _cubic(b: Array, u: Array) -> Array:
-    u, v = u[:, None], 1 - u[:, None]
-    return v**3 * b[0] + 3 * v * v * u * b[1] + 3 * v * u * u * b[2] + u**3 * b[3]

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from core.errors import OutlineError
 from core.geometry.polyline import arc_lengths, cross, resample, signed_area
+from core.model.cubic import bernstein, points_on
 from core.model.outline import Array, Ring
 
 CORNER_ANGLE = np.radians(55)
@@ -147,7 +148,7 @@ def fit_run(points: Array, leaving: Array, arriving: Array, tolerance: float) ->
     u = u / u[-1]
     for _ in range(REFITS):
         curve = _least_squares(points, u, leaving, arriving)
-        miss = np.hypot(*(_bezier(curve, u) - points).T)
+        miss = np.hypot(*(points_on(curve, u) - points).T)
         if miss.max() < tolerance:
             return [curve]
         u = _nearer_parameters(curve, points, u)
@@ -162,7 +163,7 @@ def fit_run(points: Array, leaving: Array, arriving: Array, tolerance: float) ->
 
 def _least_squares(points: Array, u: Array, leaving: Array, arriving: Array) -> Array:
     """Return the cubic through both ends, with these tangents, closest to the points at ``u``."""
-    b = _bernstein(u)
+    b = bernstein(u)
     first, last = points[0], points[-1]
     A = np.stack([b[:, 1:2] * leaving, b[:, 2:3] * arriving], axis=1)  # (n, 2, 2)
     rest = points - (b[:, 0] + b[:, 1])[:, None] * first - (b[:, 2] + b[:, 3])[:, None] * last
@@ -180,7 +181,7 @@ def _least_squares(points: Array, u: Array, leaving: Array, arriving: Array) -> 
 
 def _nearer_parameters(curve: Array, points: Array, u: Array) -> Array:
     """Return parameters improved by one Newton step towards the closest points on the curve."""
-    away = _bezier(curve, u) - points
+    away = points_on(curve, u) - points
     first, second = 3 * np.diff(curve, axis=0), 6 * np.diff(curve, n=2, axis=0)
     v = 1 - u
     d1 = np.stack([v * v, 2 * v * u, u * u], axis=1) @ first
@@ -188,15 +189,6 @@ def _nearer_parameters(curve: Array, points: Array, u: Array) -> Array:
     slope = np.einsum("ij,ij->i", d1, d1) + np.einsum("ij,ij->i", away, d2)
     step = np.divide(np.einsum("ij,ij->i", away, d1), slope, out=np.zeros_like(u), where=slope > 0)
     return np.maximum.accumulate(np.clip(u - step, 0, 1))
-
-
-def _bernstein(u: Array) -> Array:
-    v = 1 - u
-    return np.stack([v**3, 3 * v * v * u, 3 * v * u * u, u**3], axis=1)
-
-
-def _bezier(curve: Array, u: Array) -> Array:
-    return _bernstein(u) @ curve
 
 
 def _off_line(points: Array) -> float:

@@ -10,7 +10,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from core.model import cubic
+from core.model.cubic import Array
 
 MIN_NODES = 3
 """Fewest nodes of a ring."""
@@ -104,21 +105,24 @@ class Ring:
         if not self.curved[segment]:  # a line is traversed evenly, whatever its control points say
             p, q = self.points[segment], self.points[(segment + 1) % len(self)]
             return (1 - u) * p + u * q
-        b = self.controls(segment)
-        v = 1 - u
-        return v**3 * b[0] + 3 * v * v * u * b[1] + 3 * v * u * u * b[2] + u**3 * b[3]
+        return cubic.points_on(self.controls(segment), u)
+
+    def extremes(self) -> Array:
+        """(k, 2) points among which are those farthest left, up, right and down."""
+        curves = [
+            cubic.turning_points(self.controls(i)) for i in np.flatnonzero(self.curved).tolist()
+        ]
+        return np.concatenate([self.points, *curves])
 
     def with_node(self, at: float) -> Self:
-        """Insert a node at a place without changing the curve (de Casteljau)."""
+        """Insert a node at a place without changing the curve."""
         i, u = int(at) % len(self), at - int(at)
         j = (i + 1) % len(self)
         points, before, after = (np.array(a) for a in self._arrays())
         here, arriving, leaving = self.position(at), np.zeros(2), np.zeros(2)
         if self.curved[i]:
-            b = self.controls(i)
-            ab, bc, cd = (1 - u) * b[:-1] + u * b[1:]
-            abc, bcd = (1 - u) * ab + u * bc, (1 - u) * bc + u * cd
-            after[i], before[j] = ab - b[0], cd - b[3]
+            (a, ab, abc, _), (_, bcd, cd, d) = cubic.split(self.controls(i), u)
+            after[i], before[j] = ab - a, cd - d
             arriving, leaving = abc - here, bcd - here
         return type(self)(
             np.insert(points, i + 1, here, axis=0),
@@ -169,10 +173,10 @@ class Outline:
         return self.rings[place.ring].position(place.at)
 
     def bounds(self) -> tuple[float, float, float, float]:
-        """(left, top, right, bottom) of the nodes; zeros where there are none."""
+        """(left, top, right, bottom), with all of the curves; zeros where there is nothing."""
         if not any(map(len, self.rings)):
             return 0.0, 0.0, 0.0, 0.0
-        points = np.concatenate([ring.points for ring in self.rings])
+        points = np.concatenate([ring.extremes() for ring in self.rings])
         (left, top), (right, bottom) = points.min(axis=0), points.max(axis=0)
         return float(left), float(top), float(right), float(bottom)
 

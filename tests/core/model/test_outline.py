@@ -46,6 +46,23 @@ def test_a_new_node_leaves_every_other_segment_alone(ring: Ring, data: st.DataOb
 
 
 @given(rings())
+def test_bounds_hold_the_whole_curve_and_no_more(ring: Ring) -> None:
+    places = np.linspace(0, len(ring), 200 * len(ring), endpoint=False)
+    points = np.array([ring.position(at) for at in places])
+    sampled = np.concatenate([points.min(axis=0), -points.max(axis=0)])
+    left, top, right, bottom = Outline((ring,)).bounds()
+    exact = np.array([left, top, -right, -bottom])
+    size = (
+        1e-12
+        + np.abs(ring.points).max()
+        + np.abs(ring.handles_in).max()
+        + np.abs(ring.handles_out).max()
+    )
+    assert (exact <= sampled + 1e-12 * size).all()
+    assert (exact >= sampled - 1e-3 * size).all()
+
+
+@given(rings())
 def test_a_ring_reversed_twice_is_itself(ring: Ring) -> None:
     assert ring.reversed().reversed() == ring
 
