@@ -22,23 +22,12 @@ from app.canvas.pane import Pane
 from app.workspace import Workspace
 from core.geometry.flatten import flatten
 from core.geometry.polyline import resample
-from core.model import Document, Keyframe, Layer, Outline, RingPoint
+from core.model import Document
 from core.morph.scene import Span
 from core.progress import Progress
 
 NO_KEYS = Qt.KeyboardModifier.NoModifier
 LEFT = Qt.MouseButton.LeftButton
-SQUARE = ((300.0, 150.0), (600.0, 150.0), (600.0, 400.0), (300.0, 400.0))
-LEANING = ((380.0, 150.0), (680.0, 150.0), (600.0, 400.0), (300.0, 400.0))
-
-
-def a_document(*, marks: bool = True, target: bool = True) -> Document:
-    """One layer: a square that leans over from frame 1 to frame 25, marked at two corners."""
-    places = (RingPoint(0, 0.0), RingPoint(0, 2.0)) if marks else ()
-    keys = [Keyframe(1, Outline.polygon(SQUARE), places)]
-    if target:
-        keys.append(Keyframe(25, Outline.polygon(LEANING), places))
-    return Document((Layer(1, "Card", tuple(keys), ("a", "b") if marks else ()),))
 
 
 @dataclass(frozen=True, eq=False)

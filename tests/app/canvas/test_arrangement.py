@@ -9,7 +9,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.canvas.moment import Role
-from tests.app.canvas.conftest import LEFT, NO_KEYS, SQUARE, Hand, a_document
+from tests.app.canvas.conftest import LEFT, NO_KEYS, Hand
+from tests.card import SQUARE, a_document
 
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 HIGH, WIDE = (940, 540), (1200, 460)

@@ -18,7 +18,8 @@ from core.model import Keyframe, Layer, Outline
 from core.model.edits import move_nodes
 from core.morph.morph import Morph
 from core.morph.scene import picture_at, solve_span
-from tests.app.canvas.conftest import Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import a_document
 
 IN_BETWEEN = Role.IN_BETWEEN
 FAILED, SOLVED = SpanState.FAILED, SpanState.SOLVED

@@ -11,7 +11,8 @@ from shapely.geometry import Point as Spot
 from app.canvas.moment import Role
 from core.geometry.flatten import flatten
 from core.model import Document
-from tests.app.canvas.conftest import Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import a_document
 
 SOURCE, TARGET = Role.SOURCE, Role.TARGET
 

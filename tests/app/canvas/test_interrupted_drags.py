@@ -11,7 +11,8 @@ from PySide6.QtCore import Qt
 from app.canvas.moment import Role
 from core.model import Keyframe, Outline
 from core.model.edits import insert_keyframe, update_layer
-from tests.app.canvas.conftest import LEANING, Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import LEANING, a_document
 
 SOURCE = Role.SOURCE
 MIDDLE = Qt.MouseButton.MiddleButton

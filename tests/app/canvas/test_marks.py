@@ -16,7 +16,8 @@ from core.model import Document, Keyframe, Layer, Outline, RingPoint
 from core.model.edits import add_mark, remove_marks
 from core.morph import suggest
 from core.morph.marks.rings import match_rings
-from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import LEANING, SQUARE, a_document
 
 SOURCE, BETWEEN, TARGET = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET
 Key = Qt.Key

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QApplication
 from app.canvas.moment import Role
 from core.model import Outline, Ring
 from core.model.edits import replace_outline
-from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import LEANING, SQUARE, a_document
 
 SOURCE, TARGET = Role.SOURCE, Role.TARGET
 Key = Qt.Key

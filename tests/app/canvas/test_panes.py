@@ -21,8 +21,9 @@ from core.model.easing import HOLD, Easing
 from core.model.edits import add_layer, move_nodes, set_easing, update_layer
 from core.morph.quality import folds
 from core.progress import Progress
-from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document, fan
+from tests.app.canvas.conftest import Hand, fan
 from tests.app.eye import PLACE, Eye
+from tests.card import LEANING, SQUARE, a_document
 
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 RED = Style(fill="#ff0000", stroke="", stroke_width=0.0)

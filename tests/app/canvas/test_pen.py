@@ -11,7 +11,8 @@ from PySide6.QtTest import QTest
 from app.canvas.moment import Role
 from core.model import Document, Outline
 from core.model.edits import add_layer
-from tests.app.canvas.conftest import SQUARE, Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import SQUARE, a_document
 
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 CORNERS = ((200.0, 120.0), (640.0, 100.0), (700.0, 420.0), (400.0, 300.0), (180.0, 440.0))

@@ -11,7 +11,8 @@ from app.canvas.moment import Role
 from app.canvas.tools.transform_box import TransformBox
 from core.model import Outline
 from core.model.edits import add_layer
-from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import LEANING, SQUARE, a_document
 
 SOURCE, BETWEEN, TARGET = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET
 SHIFT, ALT = Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.AltModifier

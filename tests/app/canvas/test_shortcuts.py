@@ -12,7 +12,8 @@ from pytestqt.qtbot import QtBot
 from app.canvas.canvas import Canvas
 from app.canvas.moment import Role
 from app.workspace import Workspace
-from tests.app.canvas.conftest import SQUARE, Hand, a_document, fan
+from tests.app.canvas.conftest import Hand, fan
+from tests.card import SQUARE, a_document
 
 SOURCE = Role.SOURCE
 Key = Qt.Key

@@ -13,7 +13,8 @@ from app.canvas.camera import MAX_ZOOM, MIN_ZOOM
 from app.canvas.moment import Role
 from core.model import Document, Style
 from core.model.edits import update_layer
-from tests.app.canvas.conftest import LEANING, SQUARE, Hand, a_document
+from tests.app.canvas.conftest import Hand
+from tests.card import LEANING, SQUARE, a_document
 
 SOURCE, BETWEEN, TARGET, OVERLAY = Role.SOURCE, Role.IN_BETWEEN, Role.TARGET, Role.OVERLAY
 Key = Qt.Key

@@ -22,7 +22,7 @@ from core.model.edits import (
     remove_layer,
     remove_marks,
 )
-from tests.app.canvas.conftest import SQUARE, a_document
+from tests.card import SQUARE, a_document
 
 OpenWorkspace = Callable[..., Workspace]
 
