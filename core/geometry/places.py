@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.geometry.flatten import Polyline, flatten
-from core.geometry.polyline import arc_lengths, nearest_length, points_at
+from core.geometry.polyline import arc_lengths, around, nearest_length, points_at
 from core.model.outline import Array, Outline, RingPoint
 
 NODE = 1e-9
@@ -47,7 +47,8 @@ class Track:
 
     def place_of(self, length: float) -> float:
         """Return the place at an arc length, taken modulo the perimeter; that of a node exactly."""
-        return self._on_node(float(np.interp(length % self.perimeter, self.lengths, self._places)))
+        along = around(length, self.perimeter)
+        return self._on_node(float(np.interp(along, self.lengths, self._places)))
 
     def nearest(self, point: ArrayLike) -> tuple[float, float]:
         """Return the place closest to a point (2,), and its distance."""

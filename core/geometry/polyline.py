@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from core.model.outline import Array
 
@@ -32,6 +33,11 @@ def inner_angles(points: Array) -> Array:
     return np.mod(angles, 2 * np.pi)
 
 
+def around(at: ArrayLike, perimeter: float) -> Array:
+    """Return arc lengths (...) modulo a perimeter; zeros where that is zero."""
+    return np.mod(at, perimeter) if perimeter > 0 else np.zeros_like(at, dtype=float)
+
+
 def points_at(points: Array, lengths: Array, at: Array) -> Array:
     """Return (k, 2) points at arc lengths (k,), taken modulo the perimeter.
 
@@ -39,7 +45,7 @@ def points_at(points: Array, lengths: Array, at: Array) -> Array:
     to the last bit.
     """
     closed = np.append(points, points[:1], axis=0)
-    at = np.mod(at, lengths[-1])
+    at = around(at, lengths[-1])
     return np.column_stack([np.interp(at, lengths, closed[:, k]) for k in (0, 1)])
 
 

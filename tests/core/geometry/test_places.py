@@ -28,3 +28,14 @@ def test_the_nearest_place_on_a_curve_lies_on_the_curve():
     place, distance = nearest_place(outline, (3, 3))
     assert np.allclose(outline.position(place), np.sqrt(0.5), atol=1e-3)
     assert distance == pytest.approx(np.hypot(3, 3) - 1, abs=1e-3)
+
+
+@pytest.mark.parametrize("place", [(0.0, 0.0), (7.0, -2.0)])
+def test_all_places_of_a_ring_drawn_into_one_point_are_that_point(place):
+    outline = Outline.polygon([place] * 4)
+    (track,) = tracks(outline)
+    found, distance = nearest_place(outline, (place[0] + 3, place[1] + 4))
+    assert tuple(outline.position(found)) == place
+    assert distance == 5
+    assert track.place_of(track.length_of(2.0) + 9) in range(4)
+    assert tuple(track.point_at(1.5)) == place
