@@ -9,7 +9,7 @@ import numpy as np
 
 from core.errors import Repair
 from core.geometry.origin import Origin
-from core.geometry.polyline import arc_lengths, signed_area
+from core.geometry.polyline import arc_lengths, diagonal, signed_area
 from core.model.outline import Array
 
 
@@ -33,7 +33,7 @@ class CleanOutline:
     @cached_property
     def diagonal(self) -> float:
         """Diagonal of the bounds."""
-        return float(np.hypot(*np.ptp(self.rings[0], axis=0)))
+        return diagonal(self.rings[0])
 
     @cached_property
     def lengths(self) -> tuple[Array, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from core.errors import OutlineError, Where
 from core.geometry.clean_outline import CleanOutline
+from core.geometry.polyline import diagonal
 from core.model.outline import Array
 from core.model.structure import FARTHEST
 
@@ -24,7 +25,7 @@ def size_of(rings: Sequence[Array], side: str) -> float:
     if not len(points):
         return 0.0
     with np.errstate(over="ignore"):
-        size = float(np.hypot(*np.ptp(points, axis=0)))
+        size = diagonal(points)
     if size == 0:
         return size
     if not LEAST <= size <= MOST:

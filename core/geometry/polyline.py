@@ -26,6 +26,11 @@ def arc_lengths(points: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.hypot(edges[:, 0], edges[:, 1]))])
 
 
+def diagonal(points: Array) -> float:
+    """Return the diagonal of the bounds of points (n, 2)."""
+    return float(np.hypot(*np.ptp(points, axis=0)))
+
+
 def inner_angles(points: Array) -> Array:
     """Return (n,) the angle at each vertex, on the left of the polyline, in [0, 2π)."""
     after, before = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points

@@ -22,7 +22,7 @@ from core.geometry.mending import BeyondRepair
 from core.geometry.mending.meetings import separate
 from core.geometry.mending.mend import Mended, mend
 from core.geometry.origin import Origin
-from core.geometry.polyline import reversed_ring, signed_area
+from core.geometry.polyline import diagonal, reversed_ring, signed_area
 from core.model.outline import MIN_NODES, Array
 
 REPEAT = 1e-9
@@ -87,8 +87,7 @@ def _distinct(
         what = f"The {name_of(side, index)} has {repeated.sum()} repeated points"
         moved = float(length[repeated].max()) / size
         repairs.append(Repair(what, "left out", Where(side, index), moved))
-    own = float(np.hypot(*np.ptp(ring, axis=0)))
-    if Polygon(ring[kept]).convex_hull.area < FLAT * own**2:
+    if Polygon(ring[kept]).convex_hull.area < FLAT * diagonal(ring) ** 2:
         raise without_area(ring[kept], side, index)
     return kept
 

@@ -12,13 +12,13 @@ import numpy as np
 from core.errors import MarkError, Where
 from core.geometry.clean_outline import CleanOutline
 from core.geometry.places import tracks
-from core.geometry.polyline import arc_lengths, points_at, resample
+from core.geometry.polyline import arc_lengths, points_at
 from core.model import Outline, RingPoint
 from core.model.outline import Array
 from core.morph.boundary import BoundaryPair, MatchedRing, correspond
 from core.morph.marks.holes import RingPair, paired_holes
 from core.morph.marks.rings import RingMatch, match_rings, mirror_is_better
-from core.morph.shift import SAMPLES, best_shift
+from core.morph.shift import best_shift, farthest_out
 from core.progress import Watch, unwatched
 
 OFF_OUTLINE = 1e-3
@@ -272,8 +272,7 @@ def _marked(source: CleanOutline, target: CleanOutline, marks: Sequence[PlacedMa
 def _proposed(source: Array, target: Array, rings: tuple[int, int], match: RingMatch) -> MarkedRing:
     """Count proposed marks from the farthest out, so that the start vertex does not matter."""
     here, there, confidence = match.marks()
-    away = points_at(source, arc_lengths(source), here) - resample(source, SAMPLES).mean(axis=0)
-    first = int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(source), 9)))
+    first = farthest_out(points_at(source, arc_lengths(source), here), source)
     here, there, confidence = (np.roll(v, -first) for v in (here, there, confidence))
     proposed = tuple(
         ProposedMark(rings, (s, t), c)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from core.geometry.crossing import crosses_itself
 from core.geometry.flatten import flatten
+from core.geometry.polyline import diagonal
 from core.geometry.redraw import corners, redraw
-from core.model import Outline, Ring
+from core.model import Outline
 from core.model.outline import MIN_NODES, Array
 from core.morph.morph import Morph
 
@@ -24,7 +26,7 @@ def redrawn(morph: Morph, positions: Array, source: Outline, target: Outline) ->
     cross itself is left as it is: with a node at every vertex.
     """
     plain = Outline.polygon(*(positions[ring] for ring in morph.rings))
-    size = _diagonal(np.concatenate([ring.points for ring in plain.rings]))
+    size = diagonal(np.concatenate([ring.points for ring in plain.rings]))
     rings = []
     for ring, whole in zip(morph.rings, plain.rings, strict=True):
         kept = _at_nodes(morph.rest[ring], source)
@@ -32,7 +34,8 @@ def redrawn(morph: Morph, positions: Array, source: Outline, target: Outline) ->
         nodes = np.flatnonzero(kept).tolist()
         enough = len(nodes) >= MIN_NODES
         rings.append(redraw(whole.points, nodes, TOLERANCE * size) if enough else whole)
-    return Outline(tuple(rings)) if _is_simple(rings) else plain
+    drawn = Outline(tuple(rings))
+    return plain if crosses_itself([line.points for line in flatten(drawn)]) else drawn
 
 
 def _at_nodes(vertices: Array, outline: Outline) -> NDArray[np.bool_]:
@@ -41,15 +44,4 @@ def _at_nodes(vertices: Array, outline: Outline) -> NDArray[np.bool_]:
 
     nodes = np.concatenate([ring.points for ring in outline.rings])
     distances, _ = KDTree(nodes).query(vertices)
-    return distances <= SAME_PLACE * _diagonal(vertices)
-
-
-def _diagonal(points: Array) -> float:
-    return float(np.hypot(*np.ptp(points, axis=0)))
-
-
-def _is_simple(rings: list[Ring]) -> bool:
-    from shapely.geometry import Polygon
-
-    exterior, *holes = (line.points for line in flatten(Outline(tuple(rings))))
-    return bool(Polygon(exterior, holes).is_valid)
+    return distances <= SAME_PLACE * diagonal(vertices)

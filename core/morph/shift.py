@@ -19,8 +19,8 @@ def best_shift(
     well the rings then fit under their best similarity (Procrustes); between near equals the
     smaller rotation wins, or the one closest to ``rotation``, of length one, if that is given.
     """
-    start = _prominent_vertex(source)
-    a, b = (_samples(p, s) for p, s in ((source, arc_lengths(source)[start]), (target, 0.0)))
+    start = float(arc_lengths(source)[farthest_out(source, source)])
+    a, b = _samples(source, start), _samples(target, 0.0)
     fit = np.fft.ifft(np.conj(np.fft.fft(a)) * np.fft.fft(b))  # Σ conj(a_i) b_{i+k}
     turn = fit / np.maximum(np.abs(fit), 1e-300)
     wish = turn.real if rotation is None else (turn * np.conj(rotation)).real
@@ -29,7 +29,16 @@ def best_shift(
     lengths = arc_lengths(target)
     at = shift * lengths[-1] / SAMPLES
     reach = 1.5 * lengths[-1] / SAMPLES
-    return float(arc_lengths(source)[start]), _to_vertex(lengths, at, reach)
+    return start, _to_vertex(lengths, at, reach)
+
+
+def farthest_out(places: Array, ring: Array) -> int:
+    """Return which of places (k, 2) is farthest from the centre of a ring (n, 2).
+
+    Where its list of points starts does not matter, nor does rounding.
+    """
+    away = places - resample(ring, SAMPLES).mean(axis=0)
+    return int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(ring), 9)))
 
 
 def _samples(points: Array, start: float) -> Array:
@@ -37,12 +46,6 @@ def _samples(points: Array, start: float) -> Array:
     even = resample(points, SAMPLES, start)
     z = even[:, 0] + 1j * even[:, 1]
     return z - z.mean()
-
-
-def _prominent_vertex(points: Array) -> int:
-    """The vertex farthest from the centre: the same wherever the list of points starts."""
-    away = points - resample(points, SAMPLES).mean(axis=0)
-    return int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(points), 9)))
 
 
 def _to_vertex(lengths: Array, at: float, reach: float) -> float:

@@ -14,6 +14,7 @@ import shapely
 from core.geometry.crossing import crosses_itself, first_fault
 from core.geometry.distance import departure, edges_of
 from core.geometry.flatten import flatten
+from core.geometry.polyline import diagonal
 from core.model.outline import Array, Outline
 from core.morph.morph import Morph
 from core.morph.quality import folds
@@ -135,5 +136,4 @@ def _end_error(outline: Outline, morph: Morph, s: float) -> float:
     points = morph.at(s)
     drawn = [line.points for line in flatten(outline)]
     found = [points[ring] for ring in morph.rings]
-    size = float(np.hypot(*np.ptp(np.concatenate(drawn), axis=0)))
-    return departure(drawn, found) / size
+    return departure(drawn, found) / diagonal(np.concatenate(drawn))

@@ -14,6 +14,7 @@ import shapely
 
 from core.geometry.distance import distances
 from core.geometry.flatten import flatten
+from core.geometry.polyline import diagonal
 from core.geometry.rotation import wrap
 from core.geometry.triangulation import Indices
 from core.model.outline import Array
@@ -87,9 +88,8 @@ class MovingJoint:
         self._vertices = np.concatenate(joined)
         self._start, end = self._places(first), self._places(last)
         self._gaps = morph.rest[self._vertices] - self._start, morph.target[self._vertices] - end
-        size = float(np.hypot(*np.ptp(morph.rest, axis=0)))
         slid = self._gaps[1] - self._gaps[0]
-        self._weights = hinge(morph.rest[self._vertices], slid, CLOSE * size)
+        self._weights = hinge(morph.rest[self._vertices], slid, CLOSE * diagonal(morph.rest))
         self._seen = self._seen_turn(self._carrier_turned(last, end))
         self._spins = self._extra_spins()
 
