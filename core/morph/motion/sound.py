@@ -28,11 +28,11 @@ from core.morph.motion.series import Series
 from core.progress import Watch, unwatched
 
 SURVEY = 16
-"""Stretches of time between the moments at which a motion is surveyed."""
+"""Intervals between the moments at which a motion is surveyed."""
 SHORTEST_STEP = 1 / 32
 """Of the walk from one moment to the next, which is made in parts where the way is far."""
 LEVELS = 2
-"""How often a stretch is halved where what is carried between its anchors does not do."""
+"""How often an interval is halved where what is carried between its anchors does not do."""
 MEETING = 0.01
 """How close two walks are halfway that are one motion, at unit area. Others differ by far more."""
 WATCHED = 0.6
@@ -73,8 +73,8 @@ Ends = tuple[Anchor, Anchor]
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
-    """A stretch of time in which frames may need to be held."""
+class Interval:
+    """A while in which frames may need to be held."""
 
     anchors: tuple[Anchor, ...]
     """At its ends; one alone for all time beyond it."""
@@ -103,7 +103,7 @@ class SoundFrames:
         self._ideal, self._turning = ideal, turning
         self._fitted = Series(lambda t: fit(ideal(t)))
         self._hold = Hold(fit, guard, contact)
-        self._known: dict[Ends, Stretch | None] = {}
+        self._known: dict[Ends, Interval | None] = {}
         anchors, met = self._survey(watch)
         self.limbs_pass = not met
         """Whether limbs pass one another, as no way round was found: the boundary crosses then.
@@ -134,7 +134,7 @@ class SoundFrames:
         x, trouble = self._carried(t)
         return x if trouble is None else None
 
-    def _carried(self, t: float) -> tuple[Array, tuple[Wanted, Stretch] | None]:
+    def _carried(self, t: float) -> tuple[Array, tuple[Wanted, Interval] | None]:
         """Return the fit (n, 2) at t, departed from as at the anchors nearby.
 
         With it comes what it takes to settle it, if it must be settled.
@@ -142,20 +142,20 @@ class SoundFrames:
         x = self._fitted(t)
         if self._departures is not None and 0 < t < 1:
             x += to_points(self._departures(t))
-        stretch = self._stretches[bisect_left(self._times, t)]
-        if stretch is None:
+        interval = self._intervals[bisect_left(self._times, t)]
+        if interval is None:
             return x, None
         wanted = Wanted(to_complex(x), determinant(self._ideal(t)))
-        return x, None if stretch.hold.free(wanted, stretch.pairs) else (wanted, stretch)
+        return x, None if interval.hold.free(wanted, interval.pairs) else (wanted, interval)
 
     def _settled(
-        self, t: float, wanted: Wanted, stretch: Stretch, watch: Watch = unwatched
+        self, t: float, wanted: Wanted, interval: Interval, watch: Watch = unwatched
     ) -> Complex:
         start = wanted.fitted
-        if not stretch.hold.sound(start, wanted):
-            nearest = min(stretch.anchors, key=lambda anchor: (abs(anchor.t - t), anchor.strain))
+        if not interval.hold.sound(start, wanted):
+            nearest = min(interval.anchors, key=lambda anchor: (abs(anchor.t - t), anchor.strain))
             start = aligned(nearest.frame, start)
-        return stretch.hold(wanted, start, stretch.pairs, watch)
+        return interval.hold(wanted, start, interval.pairs, watch)
 
     # -- the survey ----------------------------------------------------------------------------
 
@@ -180,9 +180,9 @@ class SoundFrames:
         anchors, clear = [plain[0]], True
         for last, anchor in pairwise(plain):
             watch("in-between")
-            stretch = self._stretch((last, anchor) if last.t < anchor.t else (anchor, last))
-            pairs = stretch.pairs if clear and stretch is not None else None
-            clear = (clear and stretch is None) or self._hold.free(anchor.wanted, pairs)
+            interval = self._interval((last, anchor) if last.t < anchor.t else (anchor, last))
+            pairs = interval.pairs if clear and interval is not None else None
+            clear = (clear and interval is None) or self._hold.free(anchor.wanted, pairs)
             anchors.append(anchor if clear else self._walked(anchors[-2:], anchor, watch))
         return anchors
 
@@ -214,27 +214,27 @@ class SoundFrames:
             self._departures = Departures(
                 self._turning, self._times, np.array([anchor.departure for anchor in anchors])
             )
-        beyond = (Stretch((end,), self._hold, None) for end in (anchors[0], anchors[-1]))
-        self._stretches = [next(beyond), *map(self._stretch, pairwise(anchors)), next(beyond)]
+        beyond = (Interval((end,), self._hold, None) for end in (anchors[0], anchors[-1]))
+        self._intervals = [next(beyond), *map(self._interval, pairwise(anchors)), next(beyond)]
 
-    def _stretch(self, ends: Ends) -> Stretch | None:
-        """Return the stretch between two anchors, or None where no frame can need to be settled."""
+    def _interval(self, ends: Ends) -> Interval | None:
+        """Return the interval between anchors, or None where no frame can need to be settled."""
         if ends not in self._known:
             self._learn(ends)
         return self._known[ends]
 
     def _learn(self, anchors: Sequence[Anchor]) -> None:
-        """Find all stretches between anchors that follow each other."""
+        """Find all intervals between anchors that follow each other."""
         meetings = self._hold.meetings([anchor.frame for anchor in anchors])
         for ends, pairs in zip(pairwise(anchors), meetings, strict=True):
             quiet = not len(pairs) and min(end.margin for end in ends) > WATCHED
             frames = [(end.frame, end.wanted) for end in ends]
-            self._known[ends] = None if quiet else Stretch(ends, self._hold.leaving(frames), pairs)
+            self._known[ends] = None if quiet else Interval(ends, self._hold.leaving(frames), pairs)
 
     def _missing(self, anchors: Sequence[Anchor], watch: Watch) -> list[Anchor]:
-        """Return anchors in the middle of stretches where what is carried must be settled."""
+        """Return anchors in the middle of intervals where what is carried must be settled."""
         found = []
-        for ends in filter(self._stretch, pairwise(anchors)):
+        for ends in filter(self._interval, pairwise(anchors)):
             t = (ends[0].t + ends[1].t) / 2
             _, trouble = self._carried(t)
             if trouble is not None:
