@@ -58,17 +58,17 @@ def solve_outlines(
     _check_recipe(recipe)
     labels = labels or list(islice(mark_labels(), len(marks)))
     clock = _Clock(progress)
-    clock.start("outlines", 0.0)
+    clock.start("outlines", 0.0, 0.1)
     ends = _cleaned(source, "source"), _cleaned(target, "target")
     check_together(ends)
     _check_rings(*ends)
     placed = place_marks((source, target), ends, marks, labels)
-    clock.start("mapping", 0.1)
+    clock.start("mapping", 0.1, 0.9)
     possible = ways(*ends, placed, labels, recipe.density, clock.watch)
     here, there = bases = Basis.of(ends[0]), Basis.of(ends[1])
     choice = choose(possible, bases, recipe, clock.watch)
     taken, found = choice.taken, choice.map
-    clock.start("in-between", 0.9)
+    clock.start("in-between", 0.9, 1.0)
     mesh = found.mesh
     rest, goal = here.outside(mesh.points), there.outside(found.target)
     drawn = sum(len(pair.source) for pair in taken.boundaries)  # what was added follows them
@@ -172,11 +172,13 @@ class _Clock:
     def __init__(self, progress: Progress) -> None:
         self.seconds: dict[str, float] = {}
         self._progress, self._stage, self._since = progress, "", 0.0
-        self._fraction = 0.0
+        self._fraction, self._end = 0.0, 1.0
 
-    def start(self, stage: str, fraction: float) -> None:
+    def start(self, stage: str, fraction: float, end: float) -> None:
+        """Begin a stage that takes progress from a fraction to another."""
         self.stop()
-        self._stage, self._fraction, self._since = stage, fraction, perf_counter()
+        self._stage, self._since = stage, perf_counter()
+        self._fraction, self._end = fraction, end
         self._progress(fraction, stage)
 
     def stop(self) -> None:
@@ -184,6 +186,6 @@ class _Clock:
             self.seconds[self._stage] = perf_counter() - self._since
 
     def watch(self, step: str) -> None:
-        """Report a step of unknown length: each takes a part of what is left."""
-        self._fraction += (0.9 - self._fraction) * 0.1
+        """Report a step; nobody knows how many follow, so each takes a part of what is left."""
+        self._fraction += (self._end - self._fraction) * 0.1
         self._progress(self._fraction, step)

@@ -77,7 +77,8 @@ def settle(
 
     The barrier b is felt below a gap of 1 and infinite at 0 (Li et al. 2020, "Incremental potential
     contact"). Steps are Newton's; at first, and where the energy is not convex, Hessians are made
-    so gap by gap: projected, or Gauss and Newton's. Wherever it ends, all gaps are open.
+    so gap by gap: projected, or Gauss and Newton's. Wherever it ends, all gaps are open. A start
+    with a closed gap, which is none but for rounding, is returned as it is.
     """
     pull = np.zeros((2 * len(fitted), 2 * len(fitted)))
     pull[::2, ::2] = pull[1::2, 1::2] = 2 * stiffness
@@ -88,6 +89,8 @@ def settle(
         return misfit + sum(float(kind.weights @ barrier(kind(z))) for kind in kinds)
 
     z, value, convex = start, energy(start), True
+    if not np.isfinite(value):
+        return start
     for _ in range(steps_worth(len(fitted))):
         watch("in-between")
         terms = [_terms(kind, z) for kind in kinds]

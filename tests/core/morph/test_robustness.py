@@ -219,3 +219,21 @@ def test_any_numbers_are_a_morph_or_an_error_that_says_what_to_do(points):
         assert error.what and error.hint  # noqa: PT017, PT018 - both outcomes are right
     except MorphError:
         pytest.fail("nothing but the outline can be wrong")
+
+
+def test_a_shape_that_numbers_can_barely_tell_is_solved():
+    """It is opened by a hair that is but ten thousand numbers wide so far from the origin."""
+    source = [
+        *([1.6530918561973489, 3.332810347510641], [-32.31736433629939, 45.288020651143405]),
+        *([-103.3365708049897, 37.84864470970525], [-34.061679917864154, -2.713520703643044]),
+        *([-125.0481528652083, -67.67536864462292], [-77.2345017599668, -50.772989241428526]),
+        *([-10.43283207525711, -38.12305731323226], [1.2004421730758934, -66.09096637916586]),
+    ]
+    target = [
+        *([-224824.2420239536, -151635.67269299162], [-224824.2421277557, -151635.6730186867]),
+        *([-224824.24212966915, -151635.6730583482], [-224824.24237126863, -151635.67275062585]),
+        *([-224824.24240338383, -151635.67296411117], [-224824.24236453738, -151635.6731639873]),
+        [-224824.24212966915, -151635.6730583482],
+    ]
+    morph = core.solve(source, target, [(2, 0)], recipe=core.Recipe(density=12))
+    assert all(np.isfinite(morph.at(s)).all() for s in (0.25, 0.5, 0.75))
