@@ -5,9 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from core.geometry.polyline import arc_lengths, resample
+from core.geometry.rotation import Complex, to_complex
 from core.model.outline import Array
 
 SAMPLES = 256
+TURN_LITTLE, TURN_ALIKE = 0.02, 0.5
+"""How much a rotation counts beside the fit: a small one, and one like another that is given."""
+SNAP = 1.5
+"""How many samples away a vertex may be that the start moves to."""
 
 
 def best_shift(
@@ -24,12 +29,11 @@ def best_shift(
     fit = np.fft.ifft(np.conj(np.fft.fft(a)) * np.fft.fft(b))  # Σ conj(a_i) b_{i+k}
     turn = fit / np.maximum(np.abs(fit), 1e-300)
     wish = turn.real if rotation is None else (turn * np.conj(rotation)).real
-    weight = 0.02 if rotation is None else 0.5
+    weight = TURN_LITTLE if rotation is None else TURN_ALIKE
     shift = int(np.argmax(np.abs(fit) * (1 + weight * wish)))
     lengths = arc_lengths(target)
-    at = shift * lengths[-1] / SAMPLES
-    reach = 1.5 * lengths[-1] / SAMPLES
-    return start, _to_vertex(lengths, at, reach)
+    sample = lengths[-1] / SAMPLES
+    return start, _to_vertex(lengths, shift * sample, SNAP * sample)
 
 
 def farthest_out(places: Array, ring: Array) -> int:
@@ -41,10 +45,9 @@ def farthest_out(places: Array, ring: Array) -> int:
     return int(np.argmax(np.round(np.hypot(away[:, 0], away[:, 1]) / np.ptp(ring), 9)))
 
 
-def _samples(points: Array, start: float) -> Array:
+def _samples(points: Array, start: float) -> Complex:
     """Return (SAMPLES,) centred points as complex numbers."""
-    even = resample(points, SAMPLES, start)
-    z = even[:, 0] + 1j * even[:, 1]
+    z = to_complex(resample(points, SAMPLES, start))
     return z - z.mean()
 
 
