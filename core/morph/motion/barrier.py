@@ -88,7 +88,8 @@ def settle(
         misfit = float(np.vdot(off, stiffness @ off).real)
         return misfit + sum(float(kind.weights @ barrier(kind(z))) for kind in kinds)
 
-    z, value, convex = start, energy(start), True
+    with np.errstate(invalid="ignore"):  # a closed gap may be infinitely bad either way
+        z, value, convex = start, energy(start), True
     if not np.isfinite(value):
         return start
     for _ in range(steps_worth(len(fitted))):

@@ -87,7 +87,7 @@ def test_a_point_that_is_to_pass_through_an_edge_stays_on_its_side():
 @pytest.mark.parametrize("height", [0.0, -1e-3])
 def test_a_start_with_a_closed_gap_is_left_as_it_is(height):
     start = np.array([0, 1, 0.5 + height * 1j])
-    flat = TriangleGaps(np.array([[0, 1, 2]]), np.ones(1), np.ones(1))
+    flat = TriangleGaps(np.array([[0, 1, 2]] * 2), np.array([1.0, -1.0]), np.ones(2))
     assert np.array_equal(settle(start + 1, np.eye(3), [flat], start), start)
 
 
