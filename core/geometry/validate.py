@@ -64,9 +64,6 @@ def clean(rings: Sequence[Array], side: str) -> CleanOutline:
 
 
 def _finite(ring: Array, side: str, index: int) -> Array:
-    if ring.ndim != 2 or ring.shape[1] != 2:
-        what = f"The {name_of(side, index)} is not a list of (x, y) points."
-        raise OutlineError(what, where=Where(side, index))
     bad = np.flatnonzero(~np.isfinite(ring).all(axis=1))
     if len(bad):
         raise not_finite(int(bad[0]), side, index)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from math import isfinite
+from math import inf
 
 import numpy as np
 
@@ -137,19 +137,15 @@ def _style(path: str, style: Style) -> Iterator[Problem]:
 
 def _recipe(path: str, recipe: Recipe) -> Iterator[Problem]:
     yield from _between(f"{path}.density", recipe.density, LEAST_DENSITY, MOST_DENSITY)
-    yield from _positive(f"{path}.mu", recipe.mu)
-    if not (isfinite(recipe.lam) and recipe.lam >= 0):
+    if not 0 < recipe.mu < inf:
+        yield f"{path}.mu", f"{recipe.mu} is not a positive number"
+    if not 0 <= recipe.lam < inf:
         yield f"{path}.lam", f"{recipe.lam} is not zero or positive"
 
 
 def _between(path: str, value: float, least: float, most: float) -> Iterator[Problem]:
     if not least <= value <= most:  # nor is NaN
         yield path, f"{value} is not between {least} and {most}"
-
-
-def _positive(path: str, value: float) -> Iterator[Problem]:
-    if not (isfinite(value) and value > 0):
-        yield path, f"{value} is not a positive number"
 
 
 def _colour(path: str, colour: str) -> Iterator[Problem]:

@@ -87,6 +87,28 @@ def test_an_edit_shares_every_layer_and_key_it_does_not_touch(
             assert b is a or i == args[0]
 
 
+@given(documents(), st.data())
+def test_a_lock_keeps_all_but_name_place_and_visibility(
+    document: Document, data: st.DataObject
+) -> None:
+    edit, (layer_id, *args) = data.draw(calls(document))
+    locked = edits.update_layer(document, layer_id, locked=True)
+    after = edit(locked, layer_id, *args)
+    if after is locked:
+        edits.require_locks_kept(locked, after)
+    else:
+        with pytest.raises(EditError, match="is locked"):
+            edits.require_locks_kept(locked, after)
+    for free in (
+        edits.reorder_layer(edits.update_layer(locked, layer_id, name="x"), layer_id, 0),
+        edits.update_layer(locked, layer_id, visible=False, locked=False),
+        edits.update_document(locked, fps=3.0),
+    ):
+        edits.require_locks_kept(locked, free)
+    with pytest.raises(EditError, match="is locked"):
+        edits.require_locks_kept(locked, edits.remove_layer(locked, layer_id))
+
+
 @given(documents())
 def test_an_edit_that_changes_nothing_returns_the_very_same_document(document: Document) -> None:
     layer = document.layers[0]

@@ -63,6 +63,16 @@ def test_bounds_hold_the_whole_curve_and_no_more(ring: Ring) -> None:
 
 
 @given(rings())
+def test_a_mirrored_outline_stays_in_its_bounds_and_mirrored_again_is_itself(ring: Ring) -> None:
+    outline = Outline((ring,))
+    mirrored = outline.mirrored()
+    np.testing.assert_allclose(mirrored.bounds(), outline.bounds(), atol=1e-9)
+    back = mirrored.mirrored().rings[0]
+    np.testing.assert_allclose(back.points, ring.points, atol=1e-9)
+    assert np.array_equal(back.handles_in, ring.handles_in)
+
+
+@given(rings())
 def test_a_ring_reversed_twice_is_itself(ring: Ring) -> None:
     assert ring.reversed().reversed() == ring
 

@@ -12,7 +12,9 @@ from core.morph.edits import (
     cut_hole,
     delete_nodes,
     draw_key,
+    length_along,
     move_nodes,
+    paste_key,
     redraw_key,
     slide_mark,
 )
@@ -95,3 +97,28 @@ def test_holes_must_lie_inside_and_apart():
     for offset in ((0.0, 60.0), (160.0, 0.0), (900.0, 0.0)):
         with pytest.raises(EditError):
             cut_hole(with_hole(), 1, 0, Ring.polygon(triangle + offset))
+
+
+@pytest.mark.parametrize("frame", [13, 25])
+def test_a_key_pasted_into_its_own_layer_brings_its_marks(frame):
+    document = a_document()
+    copied = document.layers[0].keyframes[0]
+    layer = paste_key(document, 1, frame, copied, ("a", "b")).layers[0]
+    pasted = layer.keyframes[layer.key_at(frame)]
+    assert (pasted.outline, pasted.marks) == (copied.outline, copied.marks)
+
+
+@pytest.mark.parametrize("frame", [13, 25])
+def test_a_key_pasted_from_another_layer_gets_marks_of_this_one(frame):
+    copied = Keyframe(1, Outline.polygon(LEANING))
+    layer = paste_key(a_document(), 1, frame, copied, ()).layers[0]
+    pasted = layer.keyframes[layer.key_at(frame)]
+    assert pasted.outline == copied.outline
+    assert [mark.at for mark in pasted.marks] == [0.0, 2.0]
+
+
+@pytest.mark.parametrize(("at", "step", "length"), [(0.5, (3, 0), 3), (0.5, (-3, 4), -5)])
+def test_an_arrow_leads_along_the_outline_whichever_way_it_points(at, step, length):
+    outline = Outline.polygon(SQUARE)
+    assert length_along(outline, RingPoint(0, at), np.array(step)) == length
+    assert length_along(outline, RingPoint(0, at + 2), np.array(step)) == -length
