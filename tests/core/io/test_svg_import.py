@@ -331,6 +331,7 @@ def test_a_drawing_without_shapes_is_refused_with_what_was_left_out(tmp_path: Pa
 @given(st.text("MmLlCcQqAaZzHhVvSsTt0123456789.-, e", max_size=40))
 @example("h5")
 @example("M0 0Zh5v5z")
+@example("M1e308 0C-1e308 0 1e999 0 5 5z")
 @example("M0 0A0 5 0 0 1 9 9A5 5 0 0 1 9 9L0 9z")
 def test_no_path_data_crashes_the_reader(d: str) -> None:
     for found in parts(f'<path d="{d}"/><rect width="5" height="5"/>'):

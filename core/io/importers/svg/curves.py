@@ -29,7 +29,8 @@ def rings_of(path: Path) -> tuple[list[Ring], bool]:
     """
     _replace_arcs(path)
     path.reify()
-    drawn = [list(curve) for curve in _curves(path)]
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused
+        drawn = [list(curve) for curve in _curves(path)]
     corners = [p for curve in drawn for p, *_ in curve]
     if not all((np.abs(node[:3]) <= FARTHEST).all() for curve in drawn for node in curve):
         raise ValueError("a number is too large")
