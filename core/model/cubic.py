@@ -28,12 +28,14 @@ def split(controls: Array, u: float) -> tuple[Array, Array]:
     return np.array([controls[0], ab, abc, middle]), np.array([middle, bcd, cd, controls[3]])
 
 
-def turning_points(controls: Array) -> Array:
-    """Return the points (k, 2) of a curve where it is farthest left, up, right or down."""
-    steps = np.diff(controls, axis=0)
-    a, b, c = np.diff(steps, n=2, axis=0)[0], steps[1] - steps[0], steps[0]
+def turning_points(curves: Array) -> Array:
+    """Return the points (j, 2) at which curves (k, 4, 2) are farthest left, up, right or down."""
+    first, second, third = np.moveaxis(np.diff(curves, axis=1), 1, 0)
+    a, b, c = first - 2 * second + third, second - first, first
     with np.errstate(all="ignore"):
         # the derivative's zeros, a u² + 2 b u + c = 0, so that nothing cancels
         half = -(b + np.copysign(np.sqrt(b * b - a * c), b))
-        u = np.concatenate([half / a, c / half])
-    return points_on(controls, u[(u > 0) & (u < 1)])
+        u = np.concatenate([half / a, c / half], axis=1)
+    inside = (u > 0) & (u < 1)
+    curve, _ = np.nonzero(inside)
+    return np.einsum("jb,jbi->ji", bernstein(u[inside]), curves[curve])

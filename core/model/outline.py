@@ -109,10 +109,10 @@ class Ring:
 
     def extremes(self) -> Array:
         """(k, 2) points among which are those farthest left, up, right and down."""
-        curves = [
-            cubic.turning_points(self.controls(i)) for i in np.flatnonzero(self.curved).tolist()
-        ]
-        return np.concatenate([self.points, *curves])
+        ends, arriving = (np.roll(a, -1, axis=0) for a in (self.points, self.handles_in))
+        controls = self.points, self.points + self.handles_out, ends + arriving, ends
+        curves = np.stack(controls, axis=1)[self.curved]
+        return np.concatenate([self.points, cubic.turning_points(curves)])
 
     def with_node(self, at: float) -> Self:
         """Insert a node at a place without changing the curve."""
