@@ -12,7 +12,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPixmap
 
 from app.canvas.view import View
 from app.style import colours
-from core.geometry.places import tracks
+from core.geometry.places import measured
 from core.model import Outline
 from core.model.outline import Array
 
@@ -68,8 +68,8 @@ def _segment_pen(colour: str | QColor, width: float) -> QPen:
 
 def draw_outline(painter: QPainter, view: View, outline: Outline, colour: str) -> None:
     """Draw all rings of an outline, given in the document."""
-    for track in tracks(outline):
-        draw_line(painter, view.to_screen(track.polyline.points), colour, closed=True)
+    for measure in measured(outline):
+        draw_line(painter, view.to_screen(measure.polyline.points), colour, closed=True)
 
 
 def draw_nodes(

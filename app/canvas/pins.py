@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from core.geometry.places import tracks
+from core.geometry.places import measured
 from core.geometry.polyline import points_at, signed_area
 from core.model import Keyframe, Outline, RingPoint
 from core.model.outline import Array
@@ -63,10 +63,10 @@ def pins_between(source: Keyframe, morph: Morph, positions: Array) -> Pins:
 
 def outward_at(outline: Outline, place: RingPoint) -> Array:
     """Return the unit direction (2,) that leaves the shape at a place."""
-    track = tracks(outline)[place.ring]
-    points, length = track.polyline.points, track.length_of(place.at)
-    around = length + LOOK * track.perimeter * np.array([-1.0, 0.0, 1.0])
-    before, here, after = points_at(points, track.lengths, around)
+    measure = measured(outline)[place.ring]
+    points, length = measure.polyline.points, measure.length_of(place.at)
+    around = length + LOOK * measure.perimeter * np.array([-1.0, 0.0, 1.0])
+    before, here, after = points_at(points, measure.lengths, around)
     return _off(before, here, after, points, hole=place.ring > 0)
 
 

@@ -17,7 +17,7 @@ NODE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class MeasuredRing:
     """A ring's polyline with arc lengths: translates places into arc lengths and back."""
 
     polyline: Polyline
@@ -65,16 +65,16 @@ class Track:
 
 
 @lru_cache(maxsize=256)
-def tracks(outline: Outline) -> tuple[Track, ...]:
-    """Return the track of every ring."""
+def measured(outline: Outline) -> tuple[MeasuredRing, ...]:
+    """Return every ring, measured."""
     return tuple(
-        Track(polyline, len(ring), arc_lengths(polyline.points))
+        MeasuredRing(polyline, len(ring), arc_lengths(polyline.points))
         for ring, polyline in zip(outline.rings, flatten(outline), strict=True)
     )
 
 
 def nearest_place(outline: Outline, point: ArrayLike) -> tuple[RingPoint, float]:
     """Return the place on the outline closest to a point (2,), and its distance."""
-    found = [(*track.nearest(point), ring) for ring, track in enumerate(tracks(outline))]
+    found = [(*measure.nearest(point), ring) for ring, measure in enumerate(measured(outline))]
     at, distance, ring = min(found, key=lambda item: item[1])
     return RingPoint(ring, at), distance

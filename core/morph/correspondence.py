@@ -11,7 +11,7 @@ import numpy as np
 
 from core.errors import MarkError, Where
 from core.geometry.clean_outline import CleanOutline
-from core.geometry.places import tracks
+from core.geometry.places import measured
 from core.geometry.polyline import arc_lengths, points_at
 from core.model import Outline, RingPoint
 from core.model.outline import Array
@@ -133,9 +133,9 @@ def place_marks(
         for side, outline, place, end in zip(
             ("source", "target"), outlines, pair, ends, strict=True
         ):
-            track = tracks(outline)[place.ring]
-            length = end.length_of(place.ring, track.vertex_of(place.at))
-            point = track.point_at(place.at)
+            measure = measured(outline)[place.ring]
+            length = end.length_of(place.ring, measure.vertex_of(place.at))
+            point = measure.point_at(place.at)
             if _strayed(end, place.ring, length, point):
                 raise MarkError(
                     f"Mark {labels[index]} lies on a part of the {side} that had to be cut off.",
@@ -172,7 +172,7 @@ def unplace_marks(
     def place(mark: ProposedMark, side: int) -> RingPoint:
         ring = mark.rings[side]
         vertex = ends[side].vertex_of(ring, mark.lengths[side])
-        return RingPoint(ring, tracks(outlines[side])[ring].place_at_vertex(vertex))
+        return RingPoint(ring, measured(outlines[side])[ring].place_at_vertex(vertex))
 
     return tuple((place(mark, 0), place(mark, 1), mark.confidence) for mark in proposed)
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from core.errors import EditError
 from core.geometry.flatten import flatten
-from core.geometry.places import nearest_place, tracks
+from core.geometry.places import measured, nearest_place
 from core.geometry.polyline import points_at
 from core.model import Document, Keyframe, Outline, Ring, RingPoint, edits
 from core.model.outline import Array
@@ -83,17 +83,17 @@ def slide_mark(document: Document, layer_id: int, key: int, mark: int, length: f
     """Move a mark along its outline by a length, forward or (negative) back."""
     keyframe = document.layer(layer_id).keyframes[key]
     place = keyframe.marks[mark]
-    track = tracks(keyframe.outline)[place.ring]
-    at = track.place_of(track.length_of(place.at) + length)
+    measure = measured(keyframe.outline)[place.ring]
+    at = measure.place_of(measure.length_of(place.at) + length)
     return edits.move_mark(document, layer_id, key, mark, RingPoint(place.ring, at))
 
 
 def length_along(outline: Outline, place: RingPoint, step: Array) -> float:
     """Return how far along the outline an arrow's step (2,) goes: forward is positive."""
-    track = tracks(outline)[place.ring]
-    length, size = track.length_of(place.at), float(np.hypot(*step))
+    measure = measured(outline)[place.ring]
+    length, size = measure.length_of(place.at), float(np.hypot(*step))
     around = np.array([length - size, length + size])
-    behind, ahead = points_at(track.polyline.points, track.lengths, around)
+    behind, ahead = points_at(measure.polyline.points, measure.lengths, around)
     return size if (ahead - behind) @ step >= 0 else -size
 
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.geometry.places import tracks
+from core.geometry.places import measured
 from core.model.outline import Array, Outline, RingPoint
 from core.morph.marks.chain import Pair
 from core.morph.marks.holes import RingPair, paired_holes
@@ -32,7 +32,7 @@ class OutlineMatch:
         for pair, match in self.rings:
             if match is None:
                 continue
-            here, there = tracks(self.source)[pair.source], tracks(self.target)[pair.target]
+            here, there = measured(self.source)[pair.source], measured(self.target)[pair.target]
             found += [
                 (
                     RingPoint(pair.source, here.place_of(s)),
@@ -50,7 +50,7 @@ class OutlineMatch:
         """
         known = {pair.source: (pair.target, match) for pair, match in self.rings}
         ring, match = known.get(place.ring, (min(place.ring, len(self.target.rings) - 1), None))
-        here, there = tracks(self.source)[place.ring], tracks(self.target)[ring]
+        here, there = measured(self.source)[place.ring], measured(self.target)[ring]
         if not here.perimeter > 0 or not there.perimeter > 0:
             return RingPoint(ring, 0.0)
         length = here.length_of(place.at)
@@ -118,12 +118,12 @@ def _ring_pairs(
 
 
 def _rings(outline: Outline) -> list[Array]:
-    return [track.polyline.points for track in tracks(outline)]
+    return [measure.polyline.points for measure in measured(outline)]
 
 
 def _fixed(source: Outline, target: Outline, pair: RingPair, marks: Marks) -> tuple[Pair, ...]:
     """Return the marks on two rings as arc lengths."""
-    here, there = tracks(source)[pair.source], tracks(target)[pair.target]
+    here, there = measured(source)[pair.source], measured(target)[pair.target]
     return tuple(
         (here.length_of(a.at), there.length_of(b.at))
         for a, b in marks

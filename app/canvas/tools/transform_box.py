@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 
 from app.canvas.view import View
-from core.geometry.places import tracks
+from core.geometry.places import measured
 from core.model import Outline
 from core.model.outline import Array
 
@@ -34,7 +34,7 @@ class TransformBox:
     @classmethod
     def around(cls, outline: Outline) -> Self:
         """Return the box of an outline."""
-        points = np.concatenate([track.polyline.points for track in tracks(outline)])
+        points = np.concatenate([measure.polyline.points for measure in measured(outline)])
         return cls(points.min(axis=0), points.max(axis=0))
 
     @property

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.geometry.places import nearest_place, tracks
+from core.geometry.places import measured, nearest_place
 from core.model import Outline
 from tests.core.geometry.test_flatten import circle
 from tests.core.shapes import square_ring, star_shaped
@@ -11,9 +11,9 @@ from tests.core.shapes import square_ring, star_shaped
 
 @given(star_shaped(), st.floats(0, 0.999))
 def test_place_to_arc_length_and_back_is_the_same_place(points, fraction):
-    (track,) = tracks(Outline.polygon(points))
+    (measure,) = measured(Outline.polygon(points))
     at = fraction * len(points)
-    assert track.place_of(track.length_of(at)) == pytest.approx(at, abs=1e-9)
+    assert measure.place_of(measure.length_of(at)) == pytest.approx(at, abs=1e-9)
 
 
 def test_the_nearest_place_is_on_the_ring_that_is_closer():
@@ -33,9 +33,9 @@ def test_the_nearest_place_on_a_curve_lies_on_the_curve():
 @pytest.mark.parametrize("place", [(0.0, 0.0), (7.0, -2.0)])
 def test_all_places_of_a_ring_drawn_into_one_point_are_that_point(place):
     outline = Outline.polygon([place] * 4)
-    (track,) = tracks(outline)
+    (measure,) = measured(outline)
     found, distance = nearest_place(outline, (place[0] + 3, place[1] + 4))
     assert tuple(outline.position(found)) == place
     assert distance == 5
-    assert track.place_of(track.length_of(2.0) + 9) in range(4)
-    assert tuple(track.point_at(1.5)) == place
+    assert measure.place_of(measure.length_of(2.0) + 9) in range(4)
+    assert tuple(measure.point_at(1.5)) == place

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.places import tracks
+from core.geometry.places import measured
 from core.geometry.polyline import arc_lengths
 from core.model import Outline, RingPoint
 from core.model.outline import Ring
@@ -203,7 +203,7 @@ def test_a_click_on_what_encloses_nothing_still_has_an_answer():
     for source, target in ((line, shape), (shape, line)):
         assert match_outlines(source, target).proposals() == []
         place = mate(source, target, RingPoint(0, 1.0))
-        assert 0 <= place.at < tracks(target)[0].nodes
+        assert 0 <= place.at < measured(target)[0].nodes
 
 
 def test_a_place_snaps_to_the_node_within_reach():
