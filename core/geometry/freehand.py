@@ -1,8 +1,6 @@
 """A freehand stroke to a closed ring with few nodes and smooth handles.
 
-The fit is the classic one: least-squares cubics with given end tangents, cut in two where they miss
-(P. J. Schneider, "An Algorithm for Automatically Fitting Digitized Curves", Graphics Gems, 1990).
-Around it stands what closed hand-drawn shapes need: ends that overshoot or do not quite meet,
+Around the fit stands what closed hand-drawn shapes need: ends that overshoot or do not quite meet,
 corners that must stay corners, and a smooth passage where the stroke began.
 """
 
@@ -12,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.errors import OutlineError
+from core.geometry.fitting import direction, fit_run, joined
 from core.geometry.polyline import arc_lengths, cross, resample, signed_area
-from core.model.cubic import bernstein, points_on
-from core.model.outline import Array, Ring
+from core.model.outline import MIN_NODES, Array, Ring
 
 CORNER_ANGLE = np.radians(55)
 """Turns sharper than this within a few tolerances are corners."""
@@ -24,12 +22,8 @@ MEETING_GAP = 0.08
 """Ends that miss each other by less than this fraction of the stroke are drawn together."""
 TAIL = 0.25
 """Fraction of the stroke at either end in which a crossing counts as an overshoot."""
-REFITS = 4
-"""Times the curve parameters are improved before a piece is cut in two."""
 MAX_POINTS = 1200
 """Points that a stroke is reduced to at most."""
-FEWEST_NODES = 3
-"""Nodes that a ring has at least, though two cubics can make an egg."""
 
 
 def fit_stroke(stroke: ArrayLike, tolerance: float) -> Ring:
@@ -49,12 +43,9 @@ def fit_stroke(stroke: ArrayLike, tolerance: float) -> Ring:
     step = perimeter / len(points)
     corners = _corners(points, max(1, round(CORNER_REACH * tolerance / step)))
     ring = joined(_fit_pieces(points, corners, tolerance))
-    while len(ring) < FEWEST_NODES:
+    while len(ring) < MIN_NODES:  # two cubics can make an egg
         ring = ring.with_node(0.5)
     return ring
-
-
-# -- the stroke --------------------------------------------------------------------------------
 
 
 def _without_repeats(points: Array, distance: float) -> Array:
@@ -109,9 +100,6 @@ def _corners(points: Array, reach: int) -> list[int]:
     return np.flatnonzero(highest & (turn > CORNER_ANGLE)).tolist()
 
 
-# -- the curves --------------------------------------------------------------------------------
-
-
 def _fit_pieces(points: Array, corners: list[int], tolerance: float) -> list[Array]:
     """Return the cubics (4, 2) around the ring, in order: from corner to corner.
 
@@ -124,7 +112,10 @@ def _fit_pieces(points: Array, corners: list[int], tolerance: float) -> list[Arr
     for start, end in zip(cuts, [*cuts[1:], cuts[0] + len(points)], strict=True):
         piece = points[np.arange(start, end + 1) % len(points)]
         ahead = min(look, len(piece) - 1)
-        leaving, arriving = unit(piece[ahead] - piece[0]), unit(piece[-1 - ahead] - piece[-1])
+        leaving, arriving = (
+            direction(piece[ahead] - piece[0]),
+            direction(piece[-1 - ahead] - piece[-1]),
+        )
         if not corners:
             leaving, arriving = _along(points, start, look), -_along(points, end, look)
         curves += fit_run(piece, leaving, arriving, tolerance)
@@ -134,82 +125,4 @@ def _fit_pieces(points: Array, corners: list[int], tolerance: float) -> list[Arr
 def _along(points: Array, index: int, look: int) -> Array:
     """Return the direction in which a ring passes a point."""
     n = len(points)
-    return unit(points[(index + look) % n] - points[(index - look) % n])
-
-
-def fit_run(points: Array, leaving: Array, arriving: Array, tolerance: float) -> list[Array]:
-    """Return cubics (4, 2) along an open run of points (n, 2), within ``tolerance`` of them.
-
-    The unit tangents at both ends point into the run.
-    """
-    if len(points) < 4 or _off_line(points) < tolerance / 2:
-        return [points[[0, 0, -1, -1]]]
-    u = arc_lengths(points)[:-1]
-    u = u / u[-1]
-    for _ in range(REFITS):
-        curve = _least_squares(points, u, leaving, arriving)
-        miss = np.hypot(*(points_on(curve, u) - points).T)
-        if miss.max() < tolerance:
-            return [curve]
-        u = _nearer_parameters(curve, points, u)
-    cut = int(np.clip(np.argmax(miss), 2, len(points) - 3)) if len(points) > 5 else 2
-    width = min(cut, len(points) - 1 - cut, max(2, len(points) // 16))
-    tangent = unit(points[cut - width] - points[cut + width])
-    return [
-        *fit_run(points[: cut + 1], leaving, tangent, tolerance),
-        *fit_run(points[cut:], -tangent, arriving, tolerance),
-    ]
-
-
-def _least_squares(points: Array, u: Array, leaving: Array, arriving: Array) -> Array:
-    """Return the cubic through both ends, with these tangents, closest to the points at ``u``."""
-    b = bernstein(u)
-    first, last = points[0], points[-1]
-    A = np.stack([b[:, 1:2] * leaving, b[:, 2:3] * arriving], axis=1)  # (n, 2, 2)
-    rest = points - (b[:, 0] + b[:, 1])[:, None] * first - (b[:, 2] + b[:, 3])[:, None] * last
-    normal = np.einsum("nik,njk->ij", A, A)
-    right = np.einsum("nik,nk->i", A, rest)
-    chord = float(np.hypot(*(last - first)))
-    length = float(np.hypot(*np.diff(points, axis=0).T).sum())
-    alpha = np.full(2, length / 3)
-    if abs(np.linalg.det(normal)) > 1e-12 * np.trace(normal) ** 2:
-        alpha = np.linalg.solve(normal, right)
-    if np.any(alpha < 1e-3 * max(chord, length / 10)) or np.any(alpha > 2 * length):
-        alpha = np.full(2, length / 3)  # Wu and Barsky's fallback
-    return np.array([first, first + alpha[0] * leaving, last + alpha[1] * arriving, last])
-
-
-def _nearer_parameters(curve: Array, points: Array, u: Array) -> Array:
-    """Return parameters improved by one Newton step towards the closest points on the curve."""
-    away = points_on(curve, u) - points
-    first, second = 3 * np.diff(curve, axis=0), 6 * np.diff(curve, n=2, axis=0)
-    v = 1 - u
-    d1 = np.stack([v * v, 2 * v * u, u * u], axis=1) @ first
-    d2 = np.stack([v, u], axis=1) @ second
-    slope = np.einsum("ij,ij->i", d1, d1) + np.einsum("ij,ij->i", away, d2)
-    step = np.divide(np.einsum("ij,ij->i", away, d1), slope, out=np.zeros_like(u), where=slope > 0)
-    return np.maximum.accumulate(np.clip(u - step, 0, 1))
-
-
-def _off_line(points: Array) -> float:
-    """Return how far the run strays from its chord; infinite when it turns back on itself."""
-    chord = points[-1] - points[0]
-    length = float(np.hypot(*chord))
-    if length == 0:
-        return np.inf
-    along = (points - points[0]) @ chord / length
-    if along.min() < -1e-9 * length or along.max() > length * (1 + 1e-9):
-        return np.inf
-    return float(np.abs(cross(points - points[0], chord)).max() / length)
-
-
-def unit(vector: Array) -> Array:
-    """Return a vector (2,) at length 1; of none, one to the right."""
-    length = float(np.hypot(*vector))
-    return vector / length if length > 0 else np.array([1.0, 0.0])
-
-
-def joined(curves: list[Array]) -> Ring:
-    """Join cubics (4, 2) end to end to a ring; a node where two meet."""
-    b = np.array(curves)
-    return Ring(b[:, 0], np.roll(b[:, 2] - b[:, 3], 1, axis=0), b[:, 1] - b[:, 0])
+    return direction(points[(index + look) % n] - points[(index - look) % n])

@@ -22,7 +22,9 @@ class MeasuredRing:
 
     polyline: Polyline
     nodes: int
+    """How many nodes the ring has."""
     lengths: Array
+    """(n + 1,) arc lengths of the polyline's vertices, and of the whole."""
 
     @property
     def perimeter(self) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.freehand import fit_run, joined, unit
+from core.geometry.fitting import direction, fit_run, joined
 from core.geometry.polyline import cross
 from core.model.outline import Array, Ring
 
@@ -33,8 +33,8 @@ def redraw(points: Array, nodes: Sequence[int], tolerance: float) -> Ring:
     curves: list[Array] = []
     for start, end in zip(nodes, [*nodes[1:], nodes[0] + len(points)], strict=True):
         run, last = points[np.arange(start, end + 1) % len(points)], end % len(points)
-        leaving = unit(run[1] - run[0]) if sharp[start] else _passing(points, start)
-        arriving = unit(run[-2] - run[-1]) if sharp[last] else -_passing(points, last)
+        leaving = direction(run[1] - run[0]) if sharp[start] else _passing(points, start)
+        arriving = direction(run[-2] - run[-1]) if sharp[last] else -_passing(points, last)
         curves += fit_run(_refined(run), leaving, arriving, tolerance)
     return joined(curves)
 
@@ -52,4 +52,4 @@ def _passing(points: Array, node: int) -> Array:
     before = points[node] - points[node - 1]
     after = points[(node + 1) % len(points)] - points[node]
     h, k = np.hypot(*before), np.hypot(*after)
-    return unit(before * k**2 + after * h**2)
+    return direction(before * k**2 + after * h**2)

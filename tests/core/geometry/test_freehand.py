@@ -11,8 +11,9 @@ from shapely.geometry import LinearRing, Polygon
 
 from core.errors import OutlineError
 from core.geometry.flatten import flatten_ring
-from core.geometry.freehand import FEWEST_NODES, fit_stroke
+from core.geometry.freehand import fit_stroke
 from core.model import Ring
+from core.model.outline import MIN_NODES
 
 TOLERANCE = 2.0
 
@@ -105,7 +106,7 @@ def test_the_ring_stays_close_to_the_stroke(amplitudes: list[float], count: int)
     )
     stroke = radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
     ring = fit_stroke(stroke, TOLERANCE)
-    assert len(ring) >= FEWEST_NODES
+    assert len(ring) >= MIN_NODES
     assert farthest(ring, stroke) < 2 * TOLERANCE + 0.5 * 150 * 2 * np.pi / count
 
 
