@@ -57,6 +57,8 @@ class Map:
     iterations: tuple[Iteration, ...]
     stages: tuple[Stage, ...] = ()
     """What was done, in order."""
+    even: bool = False
+    """Whether its mesh was made even at both ends."""
 
     @classmethod
     def of(cls, mesh: Mesh, target: Array, iterations: tuple[Iteration, ...]) -> Self:
@@ -71,6 +73,14 @@ class Map:
     def joint(self) -> JointMesh:
         """Return the mesh at both ends."""
         return JointMesh.of(self.mesh, self.target)
+
+    def after(self, stages: Iterable[Stage], iterations: Iterable[Iteration] = ()) -> Map:
+        """Return it with what came before."""
+        return replace(
+            self,
+            stages=(*stages, *self.stages),
+            iterations=(*iterations, *self.iterations),
+        )
 
     @property
     def folds(self) -> int:
@@ -127,30 +137,24 @@ def direct_map(
     return log.map("placement", Map.of(mesh, placed.target, placed.iterations))
 
 
-def mended_map(
-    direct: Map, source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
+def refitted_map(
+    source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
 ) -> Map:
-    """Return a direct map with what is wrong put right: first folds, then small angles.
-
-    The rings are those it was made of. A map without faults is returned as it is.
-    """
-    if direct.sound:
-        wide = _widened(direct, watch)
-        if wide.worst_quality >= FAIR and wide.mean <= SLIGHTLY * direct.mean:
-            return wide
-    sound = direct if direct.sound else _refitted(direct, source, target, recipe, watch)
-    return _polished(sound, recipe, watch)
-
-
-def _refitted(
-    direct: Map, source: Sequence[Array], target: Sequence[Array], recipe: Recipe, watch: Watch
-) -> Map:
-    """Return a map on a mesh that fits both outlines from the start."""
-    log = _Log(direct.stages)
+    """Map the same rings without a fold, on a mesh that fits both outlines from the start."""
+    log = _Log()
     mesh, image = compatible_mesh(source, target, watch)
-    joint = coarsen(JointMesh.of(mesh, image), watch)
-    found = Map.of(*joint.apart(mesh.rings), direct.iterations)
+    joint = _evened(coarsen(JointMesh.of(mesh, image), watch), recipe, watch)
+    found = replace(Map.of(*joint.apart(mesh.rings), ()), even=True)
     return log.map("joint mesh", found, f"{len(joint.triangles)} triangles that fit both outlines")
+
+
+def polished_map(sound: Map, recipe: Recipe, watch: Watch) -> Map:
+    """Return a map without folds with its small angles put right; without any, as it is."""
+    if np.mean(sound.joint().worse < FAIR) <= FEW:
+        wide = _widened(sound, watch)
+        if wide.worst_quality >= FAIR and wide.mean <= SLIGHTLY * sound.mean:
+            return wide
+    return _polished(sound, recipe, watch)
 
 
 def _widened(found: Map, watch: Watch) -> Map:
@@ -173,7 +177,7 @@ def _polished(found: Map, recipe: Recipe, watch: Watch) -> Map:
     log = _Log(found.stages)
     joint = found.joint()
     if np.mean(joint.worse < FAIR) > FEW:
-        joint = settle_both(improve(joint, _max_area(recipe), watch), watch=watch)
+        joint = joint if found.even else _evened(joint, recipe, watch)
         joint = settle_both(flip(joint, passes=3), watch=watch)
     if 0 < np.mean(joint.worse < FAIR) <= MANY:
         joint = widen(joint, watch=watch)
@@ -190,6 +194,11 @@ def _polished(found: Map, recipe: Recipe, watch: Watch) -> Map:
         found = wider
     found = _exact_if_similar(found)
     return log.map("polish", found, f"worst quality {found.worst_quality:.3f}")
+
+
+def _evened(joint: JointMesh, recipe: Recipe, watch: Watch) -> JointMesh:
+    """Make a mesh even at both ends, and bring both to rest."""
+    return settle_both(improve(joint, _max_area(recipe), watch), watch=watch)
 
 
 def _exact_if_similar(found: Map) -> Map:

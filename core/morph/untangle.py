@@ -19,6 +19,9 @@ LEAST_FALL, MOST_FALL = 0.1, 0.5
 """ε is lowered as if the energy had fallen by this part at least: cautiously, as in the paper,
 while half of the mesh is folded, boldly when little is. That unfolds twice as many maps."""
 
+LEAST = 1e-10
+"""Least ε."""
+
 Observe = Callable[[float, Array], None]
 """Called after each step with the energy and the positions (n, 2)."""
 
@@ -30,22 +33,27 @@ def untangle(vertices: FreeVertices, x: Array, observe: Observe) -> Array:
     """
     elements = vertices.elements
     J = elements.determinants(x)
-    epsilon = 0.2 * abs(float(J.min()))
+    epsilon = first_epsilon(J)
     for _ in range(MAX_STEPS):
         if J.min() > VALID:
             break
-        density = FoldoverFree(max(epsilon, 1e-10))
+        density = FoldoverFree(epsilon)
         step = newton_step(vertices, density, x)
         x, after = line_search(elements, density, x, step)
         observe(after, x)
         J = elements.determinants(x)
-        epsilon = _next_epsilon(epsilon, J, step.energy, after)
+        epsilon = next_epsilon(epsilon, J, step.energy, after)
     return x
 
 
-def _next_epsilon(epsilon: float, J: Array, before: float, after: float) -> float:
+def first_epsilon(J: Array) -> float:
+    """Return the ε to begin with."""
+    return max(0.2 * abs(float(J.min())), LEAST)
+
+
+def next_epsilon(epsilon: float, J: Array, before: float, after: float) -> float:
     """Lower ε so far that the energy is sure to fall further (their eq. 8)."""
     lowest, folded = float(J.min()), float(np.mean(J <= 0))
     sigma = max(1 - after / before, MOST_FALL - folded, LEAST_FALL)
     mu = (1 - sigma) * float(regularised(np.array(lowest), epsilon))
-    return 2 * np.sqrt(mu * (mu - lowest)) if lowest < mu else 1e-10
+    return max(2 * np.sqrt(mu * (mu - lowest)), LEAST) if lowest < mu else LEAST
