@@ -1,4 +1,7 @@
-"""Suggested marks: small hollow diamonds with a number, fainter than any mark that is set."""
+"""Suggested marks: small hollow diamonds with a number, fainter than any mark that is set.
+
+Where nothing stands out on the outline there is but a dot: a mark as good, but none to look at.
+"""
 
 from __future__ import annotations
 
@@ -30,8 +33,8 @@ FAINTEST, CLEAREST = 0.35, 0.85
 """Opacity at no confidence, and at full confidence."""
 STALE = 0.5
 """What is left of it while the suggestion is not current."""
-SURE = 0.25
-"""Confidence that is worth a number; along smooth arcs there is less."""
+DOT = 2.0
+"""Radius of what does not stand out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +84,9 @@ class SuggestionsOverlay(Overlay):
         strength *= 1.0 if suggested.current else STALE
         for i in np.argsort(confidence).tolist():
             painter.setOpacity(strength[i])
+            if not suggested.suggestions[i].sure:
+                _draw_dots(painter, [end[i] for end in ends])
+                continue
             for mates in ends[1:]:
                 _draw_leader(painter, ends[0][i], mates[i])
             _draw_diamond(painter, ends[0][i], SIZE)
@@ -89,12 +95,13 @@ class SuggestionsOverlay(Overlay):
         painter.setOpacity(1.0)
 
     def _legible(self, numbers: Array, places: Array, confidence: Array) -> list[bool]:
-        """Return which numbers are sure enough, and clear of letters, places and surer numbers."""
-        taken = [*letter_centres(self.view, self._marks), *places]
+        """Return which numbers of sure places are clear of letters, places and surer numbers."""
+        sure = np.array([suggestion.sure for suggestion in self._suggested.suggestions])
+        taken = [*letter_centres(self.view, self._marks), *places[sure]]
         legible = [False] * len(numbers)
         for i in np.argsort(-confidence, kind="stable").tolist():
             away = [np.hypot(*(numbers[i] - other)) for other in taken]
-            if confidence[i] >= SURE and min(away, default=np.inf) > 2 * NUMBER:
+            if sure[i] and min(away, default=np.inf) > 2 * NUMBER:
                 legible[i] = True
                 taken.append(numbers[i])
         return legible
@@ -110,6 +117,13 @@ def _draw_diamond(painter: QPainter, at: Array, size: float) -> None:
     painter.drawPolygon(corners)
     painter.setPen(pen(colours().mark, 1.4))
     painter.drawPolygon(corners)
+
+
+def _draw_dots(painter: QPainter, places: Sequence[Array]) -> None:
+    painter.setPen(pen(colours().on_mark, 1.0))
+    painter.setBrush(QColor(colours().mark))
+    for place in places:
+        painter.drawEllipse(QPointF(*place), DOT, DOT)
 
 
 def _draw_leader(painter: QPainter, at: Array, mate: Array) -> None:

@@ -12,6 +12,8 @@ from core.progress import Progress, silent
 
 Proposed = Sequence[tuple[RingPoint, RingPoint, float]]
 """Marks between two outlines, with their confidence in [0, 1]."""
+SURE = 0.25
+"""Confidence of places that stand out on both outlines; along smooth arcs there is less."""
 
 
 @dataclass(frozen=True)
@@ -21,6 +23,11 @@ class Suggestion:
     places: tuple[RingPoint, ...]
     """One on every keyframe."""
     confidence: float
+
+    @property
+    def sure(self) -> bool:
+        """Whether it is at a place that stands out, as corners and tips do."""
+        return self.confidence >= SURE
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +49,7 @@ class LayerMatch:
     def suggestions(self, span: int, proposed: Proposed = ()) -> tuple[Suggestion, ...]:
         """Return the marks worth having in a span: those ``proposed``, and others on other rings.
 
+        They come in order along the rings, those that stand out before the others.
         A mark that would fall upon another on some keyframe is not among them.
         """
         settled = {here.ring for here, _, _ in proposed}
@@ -53,7 +61,7 @@ class LayerMatch:
             if taken.isdisjoint(enumerate(places)):
                 taken.update(enumerate(places))
                 found.append(Suggestion(places, confidence))
-        return tuple(found)
+        return tuple(sorted(found, key=lambda suggestion: not suggestion.sure))
 
 
 def match_layer(

@@ -16,13 +16,12 @@ from app.canvas.pins import pins_on_key
 from app.canvas.pointer import REACH, Pointer
 from app.canvas.suggestions_overlay import suggestion_at
 from app.canvas.tools.mark_drags import DragMark, added_mark, moved_mark
-from app.canvas.tools.tool import Command, Gesture, Tool, arrow_step
+from app.canvas.tools.mark_keys import MarkKeys
+from app.canvas.tools.tool import Command, Gesture, Tool
 from app.style import colours
 from app.workspace import Workspace
 from core.geometry.places import nearest_place
-from core.model import Layer, Outline, RingPoint, edits
-from core.model.outline import Array
-from core.morph import edits as composed
+from core.model import Layer, Outline, RingPoint
 from core.morph.layer_match import Suggestion
 from core.morph.suggest import snap
 
@@ -52,8 +51,7 @@ class MarksTool(Tool):
         """… and the keyframe on which that is."""
         self._places: dict[int, RingPoint] = {}
         """Where a click would put a mark, by keyframe: the one under the mouse and its mate's."""
-        self._chosen: Suggestion | None = None
-        """The suggestion that the keys have come to."""
+        self._keys = MarkKeys(self.session, self.selection, self.suggestions)
         self._placed = ""
         """The letter that was placed last."""
 
@@ -76,7 +74,7 @@ class MarksTool(Tool):
 
     def grab(self, pointer: Pointer) -> Gesture | None:
         """Take the mark under the mouse, selecting it, or the suggestion."""
-        self._chosen = None
+        self._keys.chosen = None
         layer, keyframe = self.editable(pointer.pane), pointer.pane.keyframe
         self._look_at(pointer)
         if layer is None or keyframe is None:
@@ -116,25 +114,8 @@ class MarksTool(Tool):
 
     def key(self, key: int, modifiers: Qt.KeyboardModifier) -> Command | None:
         """Add a mark, accept suggestions, step through both, move or delete the selected mark."""
-        layer, mark = self.layer, self.selection.mark
-        if layer is None:
-            return None
-        if key == Qt.Key.Key_Insert:
-            return self._insert
-        if self.suggestions.shown and key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            return self._accept
-        if not layer.labels and not self.suggestions.shown:
-            return None
-        if key in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
-            return self._previous if key == Qt.Key.Key_Backtab else self._next
-        if mark is None:
-            return None
-        step = arrow_step(key, modifiers)
-        if step is not None:
-            return lambda: self._nudge(layer, mark, step)
-        if key in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
-            return self._delete
-        return None
+        layer = self.layer
+        return None if layer is None else self._keys.command(layer, key, modifiers, self.held)
 
     def advice(self) -> str:
         """Say what the next click does."""
@@ -142,7 +123,7 @@ class MarksTool(Tool):
         if layer is None:
             return self.tr("Marks go on outlines: press P or B and draw one first")
         letter, shown = layer.next_label, self.suggestions.shown
-        pointed = self._suggestion or self._chosen
+        pointed = self._suggestion or self._keys.chosen
         number = shown.index(pointed) + 1 if pointed in shown else 0
         if self._mark is not None and self._mark < len(layer.labels):
             letter = layer.labels[self._mark]
@@ -176,18 +157,18 @@ class MarksTool(Tool):
     @property
     def seen(self) -> object:
         """What is under the mouse."""
-        pointed = self._mark, self._suggestion, self._chosen
+        pointed = self._mark, self._suggestion, self._keys.chosen
         return self._pane, *pointed, tuple(self._places.items()), self.suggestions.waiting
 
     @property
     def busy(self) -> bool:
         """Whether Esc has something to abandon."""
-        return super().busy or self._chosen is not None
+        return super().busy or self._keys.chosen is not None
 
     def abandon(self) -> None:
         """Take back the drag under way; go from the suggestions."""
         super().abandon()
-        self._chosen = None
+        self._keys.chosen = None
 
     def paint(self, painter: QPainter, pane: Pane) -> None:
         """Paint where a click would place a mark, here and on the other keyframe; and what is
@@ -203,7 +184,7 @@ class MarksTool(Tool):
             if key in known:
                 self._paint_ghost(painter, pane, keyframe.outline, known[key])
         shown, ends = pane.suggested.suggestions, pane.suggested.ends
-        for suggestion in (self._suggestion, self._chosen):
+        for suggestion in (self._suggestion, self._keys.chosen):
             if suggestion in shown:
                 for _, pins in ends:
                     at = pane.view.to_screen(pins.places[shown.index(suggestion)])
@@ -255,66 +236,5 @@ class MarksTool(Tool):
             for reach in arm:
                 draw_line(painter, np.array([here - reach, here + reach]), colour, width=1.2)
 
-    # -- keys ----------------------------------------------------------------------------------
-
-    def _next(self) -> None:
-        self._step(1)
-
-    def _previous(self) -> None:
-        self._step(-1)
-
-    def _step(self, by: int) -> None:
-        """Go on among the marks, and after them the suggestions."""
-        layer = self.selection.layer
-        assert layer is not None
-        marks, shown = len(layer.labels), self.suggestions.shown
-        at = self.selection.mark
-        if self._chosen in shown:
-            at = marks + shown.index(self._chosen)
-        at = ((-1 if by > 0 else 0) if at is None else at) + by
-        at %= marks + len(shown)
-        self._chosen = shown[at - marks] if at >= marks else None
-        self.selection.select_mark(at if at < marks else None)
-
-    def _accept(self) -> None:
-        """Accept the suggestion that the keys have come to, or else all."""
-        chosen, self._chosen = self._chosen, None
-        if chosen is None:
-            self.suggestions.accept_all()
-        else:
-            self.suggestions.accept(chosen)
-
-    def _nudge(self, layer: Layer, mark: int, step: Array) -> None:
-        """Move a mark along the outline, the way round that goes with the arrow."""
-        key = self.selection.key
-        keyframe = layer.keyframes[key]
-        along = composed.length_along(keyframe.outline, keyframe.marks[mark], step)
-        text = self.tr("Move mark {letter}").format(letter=layer.labels[mark])
-        self.session.amend(self.held, text, composed.slide_mark, layer.id, key, mark, along)
-
-    def _insert(self) -> None:
-        """Place a mark at the first node without one, after the selected mark."""
-        layer, keyframe, mark = self.selection.layer, self.selection.keyframe, self.selection.mark
-        assert layer is not None
-        assert keyframe is not None
-        key = self.selection.key
-        waiting = [known[key] for known in self.suggestions.waiting if key in known]
-        taken = {(place.ring, place.at) for place in (*keyframe.marks, *waiting)}
-        start = RingPoint(0, 0.0) if mark is None else keyframe.marks[mark]
-        count = len(keyframe.outline.rings[start.ring])
-        nodes = [(int(start.at) + i) % count for i in range(count)]
-        free = (node for node in nodes if (start.ring, float(node)) not in taken)
-        node = next(free, None)
-        if node is not None:
-            self.suggestions.place({key: RingPoint(start.ring, float(node))})
-
     def _on_placed(self, letter: str) -> None:
         self._placed = letter
-
-    def _delete(self) -> None:
-        layer, mark = self.selection.layer, self.selection.mark
-        assert layer is not None
-        assert mark is not None
-        text = self.tr("Delete mark {letter}").format(letter=layer.labels[mark])
-        self._mark = None
-        self.session.apply(text, edits.remove_marks, layer.id, [mark])

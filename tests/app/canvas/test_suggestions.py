@@ -73,10 +73,29 @@ def test_an_unmarked_span_shows_the_marks_that_it_was_solved_with(hand: Hand):
     morph = w.solver.morph_of(span_of(hand.document.layers[0], 0))
     shown = w.suggestions.shown
     assert shown
-    assert [(*s.places, s.confidence) for s in shown] == list(morph.report.proposed)
+    assert {(*s.places, s.confidence) for s in shown} == set(morph.report.proposed)
     assert seen(hand, SOURCE) == [tuple(position(hand, s, 0)) for s in shown]
     assert seen(hand, TARGET) == [tuple(position(hand, s, 1)) for s in shown]
     assert seen(hand, BETWEEN) == []
+
+
+def test_what_does_not_stand_out_is_but_a_dot_and_can_be_accepted_all_the_same(hand: Hand, settle):
+    shown = hand.workspace.suggestions.shown
+    corner, side = shown[0], shown[-1]
+    assert corner.sure
+    assert not side.sure
+
+    def amber_around(suggestion: Suggestion) -> int:
+        middle = hand.pixel(SOURCE, position(hand, suggestion, 0))
+        image, near = picture(hand, SOURCE), range(-6, 7)
+        pixels = (image.pixelColor(middle.x() + x, middle.y() + y) for x in near for y in near)
+        return sum(pixel.hue() in range(35, 60) and pixel.saturation() > 60 for pixel in pixels)
+
+    assert 0 < amber_around(side) < amber_around(corner)
+    hand.click(SOURCE, position(hand, side, 0))
+    settle(hand)
+    [key, _] = hand.document.layers[0].keyframes
+    assert key.marks == (side.places[0],)
 
 
 def test_suggestions_come_with_the_marks_tool_and_go_with_it(hand: Hand):
@@ -255,7 +274,7 @@ def test_they_follow_a_dragged_node_after_its_release_and_are_stale_until_then(
     settle(hand)
     span = span_of(hand.document.layers[0], 0)
     proposed = hand.workspace.solver.morph_of(span).report.proposed
-    assert [(*s.places, s.confidence) for s in suggestions.shown] == list(proposed)
+    assert {(*s.places, s.confidence) for s in suggestions.shown} == set(proposed)
 
 
 def test_a_stale_suggestion_cannot_be_accepted(hand: Hand):

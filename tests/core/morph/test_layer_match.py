@@ -46,7 +46,17 @@ def test_what_was_solved_without_marks_is_suggested_as_it_was(letters):
     span = span_of(Layer(1, "L", letters), 1)
     proposed = solve_span(span).report.proposed
     found = match_layer(letters, 1, proposed).suggestions(1, proposed)
-    assert [(*s.places[1:], s.confidence) for s in found] == list(proposed)
+    assert {(*s.places[1:], s.confidence) for s in found} == set(proposed)
+
+
+def test_what_stands_out_is_suggested_first_and_each_kind_in_order_around_the_outline(letters):
+    proposed = [
+        (RingPoint(0, at), RingPoint(0, at), confidence)
+        for at, confidence in ((0.0, 0.9), (0.5, 0.0), (1.0, 0.8), (2.5, 0.1), (4.0, 0.4))
+    ]
+    found = match_layer(letters[:2], 0, proposed).suggestions(0, proposed)
+    assert [s.places[0].at for s in found] == [0.0, 1.0, 4.0, 0.5, 2.5]
+    assert [s.sure for s in found] == [True, True, True, False, False]
 
 
 def test_accepting_all_suggestions_leaves_the_in_between_as_it_was(letters):
