@@ -53,7 +53,8 @@ class Moment:
 
 def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     """Take a look; a patient one takes what will be there in a moment for what it shows now."""
-    document, frame = workspace.session.document, workspace.playhead.frame
+    document, now = workspace.session.document, workspace.playhead.frame
+    frame = document.drawn_at(now)
     layer = workspace.selection.layer
 
     def state_of(layer: Layer, span: int) -> SpanState:
@@ -80,7 +81,7 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     hanging = [other for other in document.layers if other.key_at(frame) is None]
     stale |= {other.id for other in hanging if any(map(astray, document.carriers(other)))}
     if layer is None or not layer.spans:
-        return Moment(document, frame, layer, stale=stale)
+        return Moment(document, now, layer, stale=stale)
     span, t = layer.span_at(frame)
     s = layer.progress_at(frame)[1]
     morph = workspace.solver.morph_of(span_of(layer, span))
@@ -90,7 +91,7 @@ def moment_of(workspace: Workspace, *, patient: bool = False) -> Moment:
     check = workspace.inspector.frame_check(layer.id, frame) if known else None
     return Moment(
         document,
-        frame,
+        now,
         layer,
         span,
         t,

@@ -1,4 +1,4 @@
-"""The artboard and the frame rate."""
+"""The artboard, the frame rate, and how long drawings are held."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Any
 
 from PySide6.QtWidgets import QWidget
 
+from app.fields.choice import Choice
 from app.fields.colour import ColourField
 from app.fields.frame_rate import FrameRateField
 from app.fields.number import NumberField
@@ -34,10 +35,27 @@ class DocumentSection(Section):
         self.background.edited.connect(self._set_background)
         self.background.closed.connect(self.end_drag)
         self.frame_rate = FrameRateField(workspace.session)
+        self.hold = Choice(
+            self.tr("How long a drawing is held"),
+            [
+                (self.tr("On ones"), 1),
+                (self.tr("On twos"), 2),
+                (self.tr("On threes"), 3),
+                (self.tr("On fours"), 4),
+            ],
+        )
+        self.hold.setToolTip(
+            self.tr(
+                "On twos, each drawing is seen for two frames, here and in what is exported.\n"
+                "Keys are seen at their own frames in any case."
+            )
+        )
+        self.hold.edited.connect(self._set_hold)
         self.add_row(self.tr("Width"), self.width_)
         self.add_row(self.tr("Height"), self.height_)
         self.add_row(self.tr("Background"), self.background)
         self.add_row(self.tr("Frame rate"), self.frame_rate)
+        self.add_row(self.tr("Drawings"), self.hold)
 
     def refresh(self) -> None:
         """Show the document; the frame rate shows itself."""
@@ -45,6 +63,7 @@ class DocumentSection(Section):
         self.width_.show_value(document.size[0])
         self.height_.show_value(document.size[1])
         self.background.show_value(document.background)
+        self.hold.show_value(document.hold)
 
     def _set_width(self, value: float) -> None:
         _, height = self.workspace.session.document.size
@@ -59,6 +78,9 @@ class DocumentSection(Section):
 
     def _set_background(self, value: str) -> None:
         self._change(object(), self.tr("Change background"), background=value)
+
+    def _set_hold(self, frames: int) -> None:
+        self._change(object(), self.tr("Hold drawings"), hold=frames)
 
     def _change(self, gesture: object, text: str, **changes: Any) -> None:
         self.edit(gesture, text, update_document, **changes)

@@ -135,7 +135,8 @@ class StatusStrip(QStatusBar):
             angle=57.29578 * report.smallest_angle,
         )
         tip = f"{describe_span(workspace.inspector, layer.id, index)}\n{tip}"
-        check = workspace.inspector.frame_check(layer.id, workspace.playhead.frame)
+        drawn = workspace.session.document.drawn_at(workspace.playhead.frame)
+        check = workspace.inspector.frame_check(layer.id, drawn)
         if check is None:
             self._set_verdict(self.tr("checking…"), c.solving, tip)
         elif check.sound:

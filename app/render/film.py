@@ -77,19 +77,21 @@ class DocumentFilm:
                 place = partial(self._outline, layer)
             else:
                 triangles, boundary = morph.triangles, morph.rings
-                place = partial(_vertices, layer, morph, carry)
+                place = partial(_vertices, self.document, layer, morph, carry)
             yield MovingMesh(
                 layer.name, _Computed(place, frames), triangles, boundary, frames, times
             )
 
     def _outline(self, layer: Layer, frame: int) -> Array:
         """Return the vertices of a layer without a mesh, ring after ring."""
-        return np.concatenate(layer_rings(self.document, layer, frame, self.morph_of))
+        drawn = self.document.drawn_at(frame)
+        return np.concatenate(layer_rings(self.document, layer, drawn, self.morph_of))
 
 
-def _vertices(layer: Layer, morph: Morph, carry: Carry, frame: int) -> Array:
+def _vertices(document: Document, layer: Layer, morph: Morph, carry: Carry, frame: int) -> Array:
     """Return the vertices of a layer's mesh at a frame."""
-    return carry(layer, frame)(morph.at(layer.progress_at(frame)[1]))
+    drawn = document.drawn_at(frame)
+    return carry(layer, drawn)(morph.at(layer.progress_at(drawn)[1]))
 
 
 class _Computed(Sequence[T], Generic[T]):

@@ -21,6 +21,8 @@ class Document:
     """Width and height of the artboard."""
     background: str = "#ffffff"
     """"#rrggbb", "#rrggbbaa", or an empty string for none."""
+    hold: int = 1
+    """For how many frames a drawing is held: 1 is "on ones", 2 "on twos"."""
 
     def layer(self, layer_id: int) -> Layer:
         """Return a layer by its id; KeyError when there is none."""
@@ -47,6 +49,17 @@ class Document:
             for other in (layer, *self.carriers(layer))
         }
         return tuple(layer for layer in self.layers if layer.id in seen)
+
+    def drawn_at(self, frame: float) -> float:
+        """Return the frame whose drawing is held at a whole frame; other moments are their own.
+
+        All layers change together, from frame 1 on; a key is always seen at its own frame.
+        """
+        if self.hold == 1 or frame != int(frame):
+            return frame
+        held = frame - (frame - 1) % self.hold
+        keys = (key.frame for layer in self.layers for key in layer.keyframes)
+        return float(max((key for key in keys if held < key <= frame), default=held))
 
     @property
     def frames(self) -> tuple[int, int]:

@@ -23,6 +23,8 @@ LEAST_RATE, MOST_RATE = 0.001, 1000
 """Frames a second: no frame lasts so long, or so short, that no clock can tell."""
 LEAST_SIDE, MOST_SIDE = 0.001, 1_000_000
 """Of the artboard: what can be told from a point, and counted in pixels."""
+MOST_HOLD = 12
+"""Frames that a drawing is held."""
 _FAR = f"not a finite number, or further than {FARTHEST:g} from zero"
 COLOUR = re.compile(r"(#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?)?")
 
@@ -62,6 +64,7 @@ def setting_problems(document: Document) -> Iterator[Problem]:
     for i, length in enumerate(document.size):
         yield from _between(f"size[{i}]", length, LEAST_SIDE, MOST_SIDE)
     yield from _colour("background", document.background)
+    yield from _between("hold", document.hold, 1, MOST_HOLD)
 
 
 def layer_problems(path: str, layer: Layer) -> Iterator[Problem]:

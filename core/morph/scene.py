@@ -143,10 +143,10 @@ def layer_rings(
 
 
 def picture_at(document: Document, frame: float, rendition_of: RenditionOf[R]) -> Picture:
-    """Return the visible layers at a frame."""
-    carry = carrying(document, rendition_of)
+    """Return the visible layers at a frame: the drawing that is held there."""
+    carry, drawn = carrying(document, rendition_of), document.drawn_at(frame)
     shapes = tuple(
-        Shape(layer.id, layer.name, layer.style, _rings(layer, frame, rendition_of, carry))
+        Shape(layer.id, layer.name, layer.style, _rings(layer, drawn, rendition_of, carry))
         for layer in document.layers
         if layer.visible
     )

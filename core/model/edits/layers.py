@@ -16,7 +16,7 @@ from core.model.style import style_apart
 
 
 def update_document(document: Document, **changes: Any) -> Document:
-    """Change fps, size or background."""
+    """Change fps, size, background or hold."""
     changed: Document = altered(document, **changes)
     if changed is not document:
         require_sound(setting_problems(changed))

@@ -100,6 +100,7 @@ EDITS: dict[str, Callable[[PropertiesPanel], None]] = {
     "width": lambda p: type_in(p.document.width_, "1920"),
     "height": lambda p: type_in(p.document.height_, "1080"),
     "frame rate": lambda p: choose(p.document.frame_rate, "30"),
+    "hold": lambda p: choose(p.document.hold, "On twos"),
 }
 
 
@@ -132,7 +133,7 @@ def test_the_fields_set_what_they_name(panel: PropertiesPanel, workspace: Worksp
     recipe = changed.recipe
     assert (recipe.method, recipe.density) == ("linear", 256)
     assert (recipe.material, recipe.mu, recipe.lam) == ("st-venant-kirchhoff", 2.5, 0.25)
-    assert (document.size, document.fps) == ((1920, 1080), 30)
+    assert (document.size, document.fps, document.hold) == ((1920, 1080), 30, 2)
     assert document.layer(2) == a_layer(2, 1, 9)
 
 

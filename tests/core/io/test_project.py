@@ -209,6 +209,7 @@ def test_the_file_holds_every_field_of_the_model() -> None:
         ("fps", 1e-12, "fps: 1e-12 is not between 0.001 and 1000"),
         ("size.1", -3, "size[1]: -3.0 is not between 0.001 and 1000000"),
         ("size.0", 1e12, "size[0]: 1000000000000.0 is not between 0.001 and 1000000"),
+        ("hold", 0, "hold: 0 is not between 1 and 12"),
         ("background", "blue", "background: 'blue' is not a colour"),
     ],
 )
